@@ -12,7 +12,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{
     DatasetReading, DatasetReport, DatasetSettings, Pick, Source, best_by_metric, decided, run,
 };
-use svbrdf_evaluate::protocols::{Mask, Protocol};
+use svbrdf_evaluate::protocols::{MaskSource, Protocol};
 use svbrdf_files::arrays::{Array, Arrays};
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::read::{Albedo, ReadOptions};
@@ -298,15 +298,34 @@ fn texels_outside_of_a_mask_do_not_count() {
             }
         }
     };
-    let of = |mask: bool| {
-        let mask = mask.then_some(Mask::Alpha);
+    let by = |mask: Option<MaskSource>| {
         losses(folder.path(), "gt", DatasetReading { mask, ..stated(Albedo::Srgb, Albedo::Srgb) })
     };
+    let of = |mask: bool| by(mask.then_some(MaskSource::Alpha));
+    let pictures = folder.path().join("masks");
+    fs::create_dir(&pictures).unwrap();
+    for material in 0..MATERIALS {
+        let white = |x, y| Rgb([if is_inside([x, y]) { 255 } else { 0 }; 3]);
+        RgbImage::from_fn(SIDE, SIDE, white).save(pictures.join(name(material))).unwrap();
+    }
+    let picture = || Some(MaskSource::File(pictures.join("{}.png")));
     write(0);
     let [masked, whole] = [of(true), of(false)];
     write(255);
     assert_eq!(of(true), masked);
+    assert_eq!(by(picture()), masked);
     assert_ne!(of(false), whole);
+    // A mask is cut with its ground truth: a crop that has all of it changes what lies around the texels alone.
+    for material in 0..MATERIALS {
+        for map in maps {
+            let file = folder.path().join("ours").join(format!("m{material}")).join(format!("{map}.png"));
+            let cut = image::open(&file).unwrap().crop_imm(4, 4, SIDE - 8, SIDE - 8);
+            cut.save(&file).unwrap();
+        }
+    }
+    let cropped = by(picture());
+    let pairs = cropped.iter().zip(&masked).map(|(a, b)| a.as_ref().unwrap() / b.as_ref().unwrap());
+    assert!(pairs.clone().all(|ratio| (0.9..1.1).contains(&ratio)), "{cropped:?} {masked:?}");
     let is_less = |(masked, whole): (&Result<f64, String>, &Result<f64, String>)| {
         masked.as_ref().unwrap() < whole.as_ref().unwrap()
     };

@@ -65,7 +65,8 @@ impl ReportArgs {
     pub fn job(self, given: &Specified) -> NewJob {
         let Self { output, figure: is_figure, accuracy, rendering, comparison } = self;
         check_destination(&output)?;
-        let comparison = ComparisonJob::new(&comparison, given)?;
+        let mut comparison = ComparisonJob::new(&comparison, given)?;
+        comparison.materials.is_comparison = true;
         let (session, is_alone) = (comparison.session.as_ref(), comparison.materials.predictions() == 0);
         if is_figure {
             given.refuse::<SceneArgs<Accuracy>>("the figure alone has no loss")?;

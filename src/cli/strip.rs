@@ -10,6 +10,7 @@ use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::Destination;
 use svbrdf_files::export::strip::{Column, Crop, Paper, Strip};
 
+use crate::cli::args::protocol::MaskArgs;
 use crate::cli::args::scenes::{Lights, ListArgs, RenderingArgs};
 use crate::cli::args::values::{self, Range};
 use crate::cli::args::{ComparisonArgs, Specified, refuse};
@@ -80,6 +81,9 @@ pub struct StripArgs {
     crops: Vec<Crop>,
 
     #[command(flatten)]
+    mask: MaskArgs,
+
+    #[command(flatten)]
     comparison: ComparisonArgs,
 }
 
@@ -109,7 +113,7 @@ impl StripArgs {
             self.refuse_unused(&columns, given)?;
             let look = Look { columns, exposure_ev: self.rendering.exposure, crops: self.crops, paper };
             return strip_methods::job(
-                &self.comparison,
+                (&self.comparison, self.mask.mask),
                 (self.pairs, &self.materials),
                 look,
                 self.results,
@@ -123,7 +127,9 @@ impl StripArgs {
             "materials",
             "all materials are shown without --dataset or --pairs",
         )?;
-        let comparison = ComparisonJob::new(&self.comparison, given)?;
+        let mut comparison = ComparisonJob::new(&self.comparison, given)?;
+        comparison.materials.is_comparison = true;
+        comparison.materials.mask(self.mask.mask.as_ref());
         let session = comparison.session.as_ref();
         let columns = columns(&self, session)?;
         self.refuse_unused(&columns, given)?;
@@ -154,13 +160,14 @@ impl Job for StripJob {
         let Self { materials, output, destination, strip } = *self;
         let opened = materials.open::<f32>()?;
         check_output(&output)?;
+        let mask = opened.mask.clone();
         let materials = opened.into_all();
         if let [ground_truth, predictions @ ..] = materials.as_slice() {
             predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
         }
         let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
         let all: Vec<&Material<f32>> = materials.iter().collect();
-        let figure = watched("rendering", |progress| strip.figure(&all, &names, progress))?;
+        let figure = watched("rendering", |progress| strip.figure(&all, &names, mask.as_ref(), progress))?;
         Ok(stoppable(|progress| destination.write_figure(&figure, &strip.entries(&names), progress))?)
     }
 }

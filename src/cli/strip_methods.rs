@@ -2,18 +2,18 @@
 
 use std::path::PathBuf;
 
-use svbrdf_core::loss::{Request, check_same_size};
+use svbrdf_core::loss::Request;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::line;
 use svbrdf_evaluate::KeptAnswer;
 use svbrdf_evaluate::dataset::{
-    self, Case, DatasetReading, DatasetSettings, MaterialResult, Pick, counted_loss,
+    self, Case, CaseMaterials, DatasetReading, DatasetSettings, MaterialResult, Pick, counted_loss,
 };
+use svbrdf_evaluate::protocols::MaskSource;
 use svbrdf_files::disk::inputs::check_output_of;
 use svbrdf_files::export::Destination;
 use svbrdf_files::export::strip::{Column, Crop, MethodRow, MethodStrip, Paper};
-use svbrdf_files::read::{self, ReadOptions};
 
 use crate::cli::args::{ComparisonArgs, refuse};
 use crate::cli::job::{Job, NewJob};
@@ -45,7 +45,7 @@ pub struct Look {
 
 /// The job of the figure of a data set, which shows one column in each cell; GT may be a table of pairs.
 pub fn job(
-    comparison: &ComparisonArgs,
+    (comparison, mask): (&ComparisonArgs, Option<MaskSource>),
     (is_table, chosen): (bool, &[String]),
     look: Look,
     results: Option<PathBuf>,
@@ -56,8 +56,6 @@ pub fn job(
     let reason =
         "a figure tells what cannot be read, and `svbrdf rank --dataset --verbose` all that is noticed";
     refuse(given.both.verbose, "verbose", reason)?;
-    let reason = "materials of a data set are averaged to one size";
-    refuse(given.resize_to.is_some(), "resize-to", reason)?;
     let Look { columns, exposure_ev, crops, paper } = look;
     let [column] = columns.as_slice() else {
         return Err(CommandError::usage(
@@ -69,7 +67,7 @@ pub fn job(
     let chosen_convention = comparison.convention.clone().unwrap_or_default();
     let convention = chosen_convention.convention;
     let settings = DatasetSettings::new(source, chosen_convention, Request::over_all_scenes(0), &cases);
-    let reading = cases::reading(given, &settings.methods, &[])?;
+    let reading = DatasetReading { mask, ..cases::reading(given, &settings.methods)? };
     let reading = dataset::decided(&cases, reading, &Progress::default())?;
     let cases = if chosen.is_empty() { cases } else { of_names(cases, chosen)? };
     let mut content = column.content;
@@ -141,38 +139,23 @@ impl MethodsJob {
 
     /// A row; what cannot be read is told, and missing in the figure.
     fn row(&self, case: &Case, losses: Option<&MaterialResult>) -> MethodRow {
-        let open = |path: &PathBuf, options: &ReadOptions| -> Option<Material<f32>> {
-            let read = read::read::<f32>(path, options, &Progress::default());
-            let read = read.map_err(|problem| exit::tell(&format!("note: {problem}"))).ok()?;
-            Some(read.material)
+        let methods = &self.settings.methods;
+        let of_method = |method: &String| case.candidates.iter().find(|one| one.method == *method);
+        let candidates: Vec<_> = methods.iter().map(of_method).collect();
+        let CaseMaterials { materials, mask } = dataset::materials_of(case, &candidates, &self.reading);
+        let names = std::iter::once("ground truth").chain(methods.iter().map(String::as_str));
+        let known = |(found, name): (Result<Material<f32>, String>, &str)| {
+            let tell = |problem| exit::tell(&format!("note: {}, {name}: {problem}", case.material));
+            found.map_err(tell).ok()
         };
-        let truth = open(&case.ground_truth, &self.reading.ground_truths);
-        let prediction = |method: &String| {
-            let one = case.candidates.iter().find(|one| one.method == *method)?;
-            match &one.missing {
-                Some(problem) => {
-                    exit::tell(&format!("note: {}, {method}: {problem}", case.material));
-                    None
-                }
-                None => open(&one.path, self.reading.of_method(method)),
-            }
-        };
+        let materials = materials.into_iter().zip(names).map(known).collect();
         let text = |losses: &MaterialResult, method: &String| {
             counted_loss(losses, method, Pick::Fixed)
                 .map_or_else(String::new, |known| format!("{:.3}", known.loss))
         };
-        let methods = &self.settings.methods;
         let texts = losses.map(|losses| {
             std::iter::once(String::new()).chain(methods.iter().map(|method| text(losses, method))).collect()
         });
-        let mut materials: Vec<Option<Material<f32>>> = methods.iter().map(prediction).collect();
-        for (one, method) in materials.iter().zip(methods) {
-            let pair = truth.as_ref().zip(one.as_ref());
-            if let Some(Err(problem)) = pair.map(|(truth, one)| check_same_size(truth, one)) {
-                exit::tell(&format!("note: {}, {method}: {problem}", case.material));
-            }
-        }
-        materials.insert(0, truth);
-        MethodRow { materials, texts: texts.unwrap_or_default() }
+        MethodRow { materials, mask, texts: texts.unwrap_or_default() }
     }
 }

@@ -81,16 +81,15 @@ impl ViewArgs {
         let is_dataset = self.dataset.dataset || self.dataset.pairs;
         if !is_dataset {
             refuse(self.dataset.diagnose, "diagnose", ONLY_OF_DATASET)?;
+            let reason = "the window registers the predictions of data sets (--dataset, --pairs) alone";
+            refuse(!materials.reading.register.is_empty(), "register", reason)?;
             given.refuse::<SceneArgs<Accuracy>>(ONLY_OF_DATASET)?;
             let is_session = materials.paths().any(|path| Session::is_named(path));
             refuse(self.dataset.results.is_some() && !is_session, "results", ONLY_OF_DATASET)?;
         }
         refuse(materials.reading.both.verbose, "verbose", "the window lists what is noticed and assumed")?;
         match materials.paths().find(|path| !scene_file::is_named(path)) {
-            Some(_) if is_dataset => {
-                let reason = "materials of a data set are not resized";
-                refuse(materials.reading.resize_to.is_some(), "resize-to", reason)?;
-            }
+            Some(_) if is_dataset => {}
             None => materials.refuse_of_built_in(given)?,
             Some(path) if Session::is_named(path) => materials.refuse_of_session(given)?,
             Some(_) => (),
@@ -182,7 +181,7 @@ fn dataset_of(args: &ViewArgs) -> Result<svbrdf::OpenDataset, CommandError> {
     let request = accuracy.options()?.request()?;
     let mut dataset = svbrdf::OpenDataset::new(source, DatasetReading::default(), request, results.clone())?;
     dataset.settings.diagnose = *diagnose;
-    let reading = cases::reading(&args.materials.reading, dataset.methods(), &[])?;
+    let reading = cases::reading(&args.materials.reading, dataset.methods())?;
     dataset.reading = decided(&dataset.cases, reading, &svbrdf_core::progress::Progress::default())?;
     Ok(dataset)
 }

@@ -49,6 +49,10 @@ pub enum Error {
         problem: String,
     },
 
+    /// There is no mask, or it is of another material.
+    #[error("the mask: {problem}; leave out --mask, or give another picture")]
+    NoMask { problem: String },
+
     /// Of a file, or of a computation.
     #[error(transparent)]
     Files(#[from] FilesError),

@@ -18,11 +18,12 @@ use svbrdf_files::Error;
 use super::content::{PageReport, View};
 use super::pictures::{self, exposure};
 use super::ranking::MaterialView;
-use svbrdf_evaluate::dataset::{Case, DatasetReport, MaterialResult, counted_loss, counted_sample};
+use svbrdf_evaluate::dataset::{
+    Case, CaseMaterials, DatasetReport, MaterialResult, counted_loss, counted_sample, materials_of,
+};
 use svbrdf_files::disk::atomic::replace;
 use svbrdf_files::disk::own;
 use svbrdf_files::disk::paths::plain;
-use svbrdf_files::read::{self, ReadOptions};
 use svbrdf_files::session::window::SessionDisplay;
 
 /// Light and view of pictures and figures.
@@ -134,18 +135,23 @@ fn opened(
     result: &MaterialResult,
     case: &Case,
 ) -> Option<Vec<Option<Material<f32>>>> {
-    let open = |path: &Path, options: &ReadOptions, name: &str| -> Option<Material<f32>> {
-        Some(read::read(path, options, &Progress::default()).ok()?.material.renamed(name))
-    };
-    let ground_truth = open(&case.ground_truth, &report.reading.ground_truths, &result.material)?;
-    let size = ground_truth.size();
-    let prediction = |method: &String| {
+    let candidate = |method: &String| {
         let sample = counted_sample(result, method, report.pick)?;
-        let candidate = case.candidates.iter().find(|one| one.method == *method && one.sample == sample)?;
-        open(&candidate.path, report.reading.of_method(method), method).filter(|one| one.size() == size)
+        case.candidates.iter().find(|one| one.method == *method && one.sample == sample)
     };
-    let predictions = report.methods.iter().map(|summary| prediction(&summary.method));
-    Some(std::iter::once(Some(ground_truth)).chain(predictions).collect())
+    let methods: Vec<&String> = report.methods.iter().map(|summary| &summary.method).collect();
+    let candidates: Vec<_> = methods.iter().map(|method| candidate(method)).collect();
+    let CaseMaterials { materials, mask } = materials_of(case, &candidates, &report.reading);
+    let names = std::iter::once(&result.material).chain(methods);
+    let named = |(one, name): (Result<Material<f32>, String>, &String)| {
+        let one = one.ok()?.renamed(name);
+        Some(match &mask {
+            Some(mask) => one.gray_outside(mask),
+            None => one,
+        })
+    };
+    let materials: Vec<_> = materials.into_iter().zip(names).map(named).collect();
+    materials[0].is_some().then_some(materials)
 }
 
 /// The pictures of a material; its figure is written to the file of `figure`.

@@ -96,6 +96,7 @@ impl MaterialArgs {
     /// Refuses what is specified of files that are not read in this way.
     fn refuse(&self, given: &Specified, reason: &str) -> Result<(), CommandError> {
         given.refuse::<StatementArgs>(reason)?;
+        refuse(!self.reading.register.is_empty(), "register", reason)?;
         refuse(self.reading.resize_to.is_some(), "resize-to", reason)
     }
 

@@ -1,8 +1,7 @@
-//! A protocol on the command line, how predictions lie on their ground truth, and which texels count.
+//! A protocol on the command line, and which texels are compared.
 
 use svbrdf_core::loss::LossOptions;
-use svbrdf_evaluate::protocols::Protocol;
-use svbrdf_evaluate::registration::Registration;
+use svbrdf_evaluate::protocols::{MaskSource, Protocol};
 use svbrdf_files::convention::ChosenConvention;
 
 use super::scenes::{FixedNumber, SceneArgs};
@@ -15,18 +14,20 @@ pub struct PairArgs {
     #[command(flatten)]
     pub protocol: ProtocolArgs,
 
-    /// How predictions of another size lie on the ground truth: resize, resize=cubic, centre-crop, crop=X,Y or crop=X,Y/N of it reduced by N
-    #[arg(long, value_name = "WAY", hide_short_help = true)]
-    #[arg(value_parser = offered(str::parse::<Registration>, WAYS), hide_possible_values = true)]
-    pub register: Option<Registration>,
-
-    /// Compares only the texels that are opaque in the alpha of the ground truth
-    #[arg(long, value_name = "alpha", value_parser = ["alpha"], hide_possible_values = true, hide_short_help = true)]
-    pub mask: Option<String>,
+    #[command(flatten)]
+    pub mask: MaskArgs,
 }
 
-/// Ways of registration, to be completed.
-pub const WAYS: [&str; 5] = ["resize", "resize=cubic", "centre-crop", "crop=16,16", "crop=0,0/4"];
+/// Which texels are compared.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct MaskArgs {
+    /// Compares only the texels that are opaque in the alpha of the ground truth, or white in a picture
+    ///
+    /// alpha, or the path of a picture of the size of the ground truth, in which {} stands for the name of the material: 'masks/{}.png'.
+    #[arg(long, value_name = "alpha|FILE", hide_possible_values = true, hide_short_help = true)]
+    #[arg(value_parser = offered(str::parse::<MaskSource>, ["alpha"]))]
+    pub mask: Option<MaskSource>,
+}
 
 #[derive(Debug, Default, clap::Args)]
 pub struct ProtocolArgs {

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use svbrdf_core::error::Error as CoreError;
-use svbrdf_core::loss::check_same_size;
-use svbrdf_core::material::Material;
+use svbrdf_core::material::{Mask, Material};
 use svbrdf_core::math::real::Real;
 use svbrdf_core::text::quoted;
 use svbrdf_evaluate::dataset::{self, Case, Method};
 use svbrdf_evaluate::diagnose::Storage;
-use svbrdf_evaluate::registration::{self, Registration};
+use svbrdf_evaluate::protocols::MaskSource;
+use svbrdf_evaluate::registration::{Registration, registered};
 use svbrdf_evaluate::report::distinct_names;
 use svbrdf_files::Error;
 use svbrdf_files::disk::memory::Reserved;
@@ -23,7 +23,7 @@ use svbrdf_files::source::MaterialSource;
 
 use crate::cli::args::protocol::PairArgs;
 use crate::cli::args::reading::{PairReadingArgs, ReadingArgs, ResizeTo};
-use crate::cli::args::{MaterialArgs, NamedPath, Specified};
+use crate::cli::args::{MaterialArgs, NamedPath, Specified, refuse};
 use crate::cli::output::{CommandError, advice, exit, watched};
 
 /// Longest side of a material that is resized, as of one that is read.
@@ -39,9 +39,11 @@ pub struct MaterialJob {
     /// The paths on the command line: those of the sources, or that of a session; none for the built-in materials.
     pub paths: Vec<PathBuf>,
     resize_to: Option<ResizeTo>,
-    /// How predictions of another size may lie on the ground truth; empty: they are refused.
+    /// How predictions of another size may lie on the ground truth; empty: in any way.
     ways: Vec<Registration>,
-    is_masked: bool,
+    mask: Option<MaskSource>,
+    /// Whether predictions are compared with the ground truth, so that those of another size are looked for in it.
+    pub is_comparison: bool,
     /// Factor and offset on the roughness of the ground truth, and of predictions.
     roughness: [Option<[f64; 2]>; 2],
     /// Whether a guess in reading, or an accuracy that is not reached, is an error.
@@ -71,25 +73,38 @@ impl MaterialJob {
             }
         };
         let PairReadingArgs { resize_to, both: ReadingArgs { strict, verbose, .. }, .. } = args.reading;
+        let ways = args.reading.register.iter().map(|(whose, way)| match whose {
+            None => Ok(*way),
+            Some(whose) => Err(CommandError::Usage(format!(
+                "--register: {whose} is no method of a data set; give the way alone"
+            ))),
+        });
+        let ways: Vec<Registration> = ways.collect::<Result<_, _>>()?;
+        refuse(resize_to.is_some() && !ways.is_empty(), "resize-to", "--register decides the size")?;
         let paths = args.paths().cloned().collect();
-        let (ways, is_masked, roughness) = (Vec::new(), false, [None; 2]);
-        Ok(Self { sources, paths, resize_to, ways, is_masked, roughness, strict, verbose })
+        let (mask, roughness) = (None, [None; 2]);
+        let is_comparison = false;
+        Ok(Self { sources, paths, resize_to, ways, mask, is_comparison, roughness, strict, verbose })
     }
 
     /// Takes over how pairs are compared.
-    pub fn compare(&mut self, PairArgs { protocol, register, mask }: &PairArgs) {
-        self.is_masked = mask.is_some();
-        self.ways.extend(*register);
+    pub fn compare(&mut self, PairArgs { protocol, mask }: &PairArgs) {
+        self.mask(mask.mask.as_ref());
         let Some(protocol) = &protocol.protocol else { return };
         let sides = [&protocol.ground_truths, &protocol.predictions];
         self.roughness = sides.map(|side| side.roughness);
         for (index, source) in self.sources.iter_mut().enumerate() {
             source.options = source.options.over(sides[index.min(1)].read);
         }
-        self.is_masked |= protocol.mask.is_some();
-        if register.is_none() {
+        self.mask(self.mask.clone().as_ref().or(protocol.mask.as_ref()));
+        if self.ways.is_empty() {
             self.ways.clone_from(&protocol.registration);
         }
+    }
+
+    /// Compares only the texels of a mask.
+    pub fn mask(&mut self, mask: Option<&MaskSource>) {
+        self.mask = mask.cloned();
     }
 
     /// The number of predictions.
@@ -124,7 +139,8 @@ impl MaterialJob {
         let storages = read.iter().map(Read::storage).collect();
         let memory = read.iter().map(|read| read.memory.clone()).collect();
         let readings = read.iter().map(reading).collect();
-        let mask = read.first().and_then(|truth| truth.mask.clone()).filter(|_| self.is_masked);
+        let masked = self.mask.as_ref().zip(read.first());
+        let mut mask = masked.map(|(mask, truth)| mask.of(truth.material.name(), truth)).transpose()?;
         for ((mut read, name), source) in read.into_iter().zip(names).zip(&self.sources) {
             read.material = read.material.renamed(name);
             let mut material = noted(read, self.verbose);
@@ -136,20 +152,21 @@ impl MaterialJob {
         }
         if let Some(to) = self.resize_to {
             materials = resized(materials, to)?;
+            mask = mask.and_then(|mask| mask.resized(materials[0].size()));
         }
-        if !self.ways.is_empty() {
-            materials = registered(materials, &self.ways)?;
+        if self.is_comparison && !self.strict || !self.ways.is_empty() {
+            let found = registered(materials, mask, &self.ways)?;
+            found.note.iter().for_each(|note| exit::tell(&format!("note: {note}")));
+            (materials, mask) = (found.materials, found.mask);
+        }
+        if self.mask.is_some() && mask.is_none() {
+            return Err(CommandError::usage("the mask keeps no texel of the predictions; leave out --mask"));
         }
         let mut materials = materials.into_iter();
         // There is a source at least.
         let Some(ground_truth) = materials.next() else {
             return Err(Error::Internal("there is no ground truth".to_owned()).into());
         };
-        let [width, height] = ground_truth.size();
-        if self.is_masked && mask.as_ref().is_none_or(|mask| mask.len() != width * height) {
-            let problem = "no alpha of the ground truth is a mask of its texels, 0 or 1 nearly everywhere; leave out --mask";
-            return Err(CommandError::usage(problem));
-        }
         Ok(OpenedMaterials {
             mask,
             ground_truth,
@@ -176,7 +193,7 @@ pub struct OpenedMaterials<T> {
     pub ground_truth: Material<T>,
     pub predictions: Vec<Material<T>>,
     /// Which texels are compared, where not all are.
-    pub mask: Option<Arc<[bool]>>,
+    pub mask: Option<Mask>,
     /// How each is stored, the ground truth first.
     pub storages: Vec<Storage>,
     /// For each material the assumptions and notes of reading it.
@@ -336,34 +353,6 @@ fn resized<T: Real>(materials: Vec<Material<T>>, to: ResizeTo) -> Result<Vec<Mat
         Ok(material.resized(size)?)
     };
     materials.into_iter().map(bring).collect()
-}
-
-/// The part of the ground truth that predictions of another size are compared with, and these, in one of these `ways`: the only one, or the
-/// one in which the maps correlate best.
-fn registered<T: Real>(
-    materials: Vec<Material<T>>,
-    ways: &[Registration],
-) -> Result<Vec<Material<T>>, CommandError> {
-    let [truth, predictions @ ..] = materials.as_slice() else { return Ok(materials) };
-    let others: Vec<_> = predictions.iter().filter(|one| one.size() != truth.size()).collect();
-    let Some(first) = others.first() else { return Ok(materials) };
-    let single: Vec<_> = others.iter().map(|one| [truth.cast::<f32>(), one.cast()]).collect();
-    let pairs: Vec<[&Material<f32>; 2]> = single.iter().map(|pair| pair.each_ref()).collect();
-    let found = || registration::common(&pairs, ways).map(|found| found.registration);
-    let Some(way) = (if let [way] = ways { Some(*way) } else { found() }) else {
-        return Err(check_same_size(truth, first).err().map_or_else(
-            || CommandError::usage("the predictions cannot be registered"),
-            CommandError::from,
-        ));
-    };
-    let ([w, h], [width, height]) = (truth.size(), first.size());
-    exit::tell(&format!("note: {way} of a ground truth of {w} x {h} to predictions of {width} x {height}"));
-    let [part, _] = way.applied([truth, first])?;
-    let lie = |one: &Material<T>| {
-        Ok(if one.size() == truth.size() { one.clone() } else { way.applied([truth, one])?[1].clone() })
-    };
-    let all: Vec<Material<T>> = predictions.iter().map(lie).collect::<Result<_, CoreError>>()?;
-    Ok(std::iter::once(part).chain(all).collect())
 }
 
 /// Whether a material of this size can be expected to fit into memory.

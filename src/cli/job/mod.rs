@@ -38,8 +38,9 @@ pub struct ComparisonJob {
 impl ComparisonJob {
     /// As [`ComparisonJob::new`], of a ground truth with predictions.
     pub fn with_predictions(args: &ComparisonArgs, given: &Specified) -> Result<Self, CommandError> {
-        let job = Self::new(args, given)?;
+        let mut job = Self::new(args, given)?;
         job.materials.check_predictions()?;
+        job.materials.is_comparison = true;
         Ok(job)
     }
 

@@ -16,7 +16,9 @@ pub fn of_error(error: &CommandError) -> Option<&'static str> {
     Some(match error {
         Error::Outside { .. } => "--allow-outside allows it",
         Error::Memory { .. } => "--max-memory sets it",
-        Error::Core(CoreError::SizesDiffer { .. }) => "--resize-to gt, pred or a width does",
+        Error::Core(CoreError::SizesDiffer { .. }) => {
+            "--resize-to gt, pred or a width does, and --register compares a part"
+        }
         Error::NotFinite { .. } => "--read non-finite=replace puts other numbers in their place",
         Error::NoSuchExemplar { .. } => "--read exemplar=K chooses a material",
         Error::MissingMap { .. } => {

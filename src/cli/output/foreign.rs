@@ -35,7 +35,7 @@ one file a map: a folder or a prefix of their names; `svbrdf info --map normal=F
 order layout tiles: --read order=ndrs says what the tiles of a packed image are
 light lights view camera env envmap hdri: losses sample lights and views; --scenes FILE has those of a file, `svbrdf render` has --light and --view
 exposure ev tonemap: losses have no exposure; `svbrdf render` has --exposure
-crop register registration align: `svbrdf rank --dataset` finds crops and scales; --resize-to resizes a single pair
+crop register registration align: crops and scales are found by the maps; --register specifies them
 quiet silent q: leave it out: progress goes to the terminal only
 debug log verbosity: the environment variable RUST_LOG=info, and --verbose for what was noticed in reading
 force overwrite f y yes: leave it out: outputs are replaced

@@ -7,14 +7,13 @@ use svbrdf_core::text::printable;
 use svbrdf_evaluate::analyses::RankReport;
 use svbrdf_evaluate::dataset::{Pick, Shard};
 use svbrdf_evaluate::metrics::MetricSelection;
-use svbrdf_evaluate::registration::Registration;
 use svbrdf_evaluate::report::Report;
 use svbrdf_files::Error;
 use svbrdf_files::disk::inputs::check_output_of;
 use svbrdf_files::export::{check_place, write_text};
 use svbrdf_page::Figures;
 
-use crate::cli::args::protocol::{ProtocolArgs, WAYS};
+use crate::cli::args::protocol::{MaskArgs, ProtocolArgs};
 use crate::cli::args::scenes::{FixedNumber, SceneArgs};
 use crate::cli::args::{ComparisonArgs, Specified, offered, values};
 use crate::cli::output::{CommandError, exit, stoppable};
@@ -57,6 +56,9 @@ pub struct RankArgs {
     pub figures: Option<Figures>,
 
     #[command(flatten)]
+    pub mask: MaskArgs,
+
+    #[command(flatten)]
     pub comparison: ComparisonArgs,
 }
 
@@ -75,18 +77,6 @@ pub struct DataSetArgs {
     #[arg(long, value_name = "fixed|mean|best", default_value = "fixed")]
     #[arg(value_parser = offered(str::parse::<Pick>, ["fixed", "mean", "best"]), hide_possible_values = true)]
     pub pick: Pick,
-
-    /// How predictions of another size lie on their ground truths [default: found by the maps]
-    ///
-    /// resize, resize=cubic, centre-crop, crop=X,Y, or crop=X,Y/N of ground truths reduced by N; after NAME: for one method only. May be given
-    /// several times.
-    #[arg(long, value_name = "[METHOD:]WAY", hide_short_help = true)]
-    #[arg(value_parser = offered(registered, WAYS), hide_possible_values = true)]
-    pub register: Vec<(Option<String>, Registration)>,
-
-    /// Compares only the texels that are opaque in the alpha of the ground truth of a data set
-    #[arg(long, value_name = "alpha", value_parser = ["alpha"], hide_possible_values = true, hide_short_help = true)]
-    pub mask: Option<String>,
 
     /// Adds metrics of the maps of a data set, or those of these words
     ///
@@ -126,14 +116,6 @@ impl RankArgs {
         let first = self.comparison.materials.paths().next()?;
         let is_open = self.of_data_set.metrics.as_ref().is_some_and(|words| *words == [""]);
         first.to_str().filter(|text| is_open && word(text).is_ok() && !first.exists())
-    }
-}
-
-/// A registration, after the name of a method that it is for.
-fn registered(text: &str) -> Result<(Option<String>, Registration), CoreError> {
-    match text.rsplit_once(':') {
-        Some((method, way)) => Ok((Some(method.to_owned()), way.parse()?)),
-        None => Ok((None, text.parse()?)),
     }
 }
 

@@ -3,18 +3,15 @@
 use std::collections::BTreeMap;
 
 use svbrdf_evaluate::dataset::{DatasetReading, Source};
-use svbrdf_evaluate::registration::Registration;
 
-use crate::cli::args::MaterialArgs;
 use crate::cli::args::reading::{PairReadingArgs, Whose};
+use crate::cli::args::{MaterialArgs, refuse};
 use crate::cli::output::CommandError;
 
 /// How the ground truths and the predictions of `methods` are read.
-pub fn reading(
-    given: &PairReadingArgs,
-    methods: &[String],
-    register: &[(Option<String>, Registration)],
-) -> Result<DatasetReading, CommandError> {
+pub fn reading(given: &PairReadingArgs, methods: &[String]) -> Result<DatasetReading, CommandError> {
+    let reason = "materials of a data set are brought to one size by --register";
+    refuse(given.resize_to.is_some(), "resize-to", reason)?;
     let reading = given.reading()?;
     reading.check(None, methods)?;
     let predictions = reading.options_for(Whose::Predictions, "");
@@ -22,7 +19,7 @@ pub fn reading(
     let of_methods = methods.iter().map(of_method).filter(|(_, options)| *options != predictions).collect();
     let ground_truths = reading.options_for(Whose::GroundTruth, "");
     let mut registrations = BTreeMap::new();
-    for (whose, way) in register {
+    for (whose, way) in &given.register {
         let is_of = |method: &&String| whose.as_ref().is_none_or(|whose| whose == *method);
         let of: Vec<&String> = methods.iter().filter(is_of).collect();
         if of.is_empty() {

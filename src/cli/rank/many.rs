@@ -8,7 +8,6 @@ use svbrdf_evaluate::dataset::{
     self, Case, DatasetReading, DatasetReport, DatasetSettings, MaterialResult, Pick, Shard,
 };
 use svbrdf_evaluate::metrics::MetricSelection;
-use svbrdf_evaluate::protocols::Mask;
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_evaluate::robust::RobustReport;
 use svbrdf_files::disk::atomic::write_text;
@@ -68,16 +67,14 @@ pub fn written(mut args: RankArgs, given: &Specified, format: RankFormat) -> Res
 }
 
 fn new(args: RankArgs, given: &Specified) -> Result<ManyJob, CommandError> {
-    let reason = "materials of a data set are brought to one size by --register";
-    refuse(args.comparison.materials.reading.resize_to.is_some(), "resize-to", reason)?;
     if args.robust {
         refuse_scenes(given)?;
     }
     let source = source(&args.comparison.materials, args.pairs)?;
     let cases = source.cases()?;
     let output = output(&args, given, &cases)?;
-    let DataSetArgs { results, shard, pick, register, mask, metrics, protocol, common, diagnose } =
-        args.of_data_set;
+    let DataSetArgs { results, shard, pick, metrics, protocol, common, diagnose } = args.of_data_set;
+    let mask = args.mask.mask;
     let typed = args.scenes.options()?;
     let (convention, options) = protocol.decided(args.comparison.convention.as_ref(), typed, given)?;
     let protocol = protocol.protocol.map(|one| *one);
@@ -99,8 +96,7 @@ fn new(args: RankArgs, given: &Specified) -> Result<ManyJob, CommandError> {
     refuse(mask.is_some() && args.robust, "robust", "the order under other questions is over all texels")?;
     let settings = DatasetSettings { diagnose, common, ..settings };
     let given = &args.comparison.materials.reading;
-    let mask = mask.map(|_| Mask::Alpha);
-    let reading = DatasetReading { mask, ..reading(given, &settings.methods, &register)? };
+    let reading = DatasetReading { mask, ..reading(given, &settings.methods)? };
     let reading = protocol.iter().fold(reading, DatasetReading::over);
     let (verbose, fail_above, robust) = (given.both.verbose, args.fail_above, args.robust);
     Ok(ManyJob { settings, reading, cases, shard, results, pick, verbose, fail_above, robust, output })

@@ -17,12 +17,14 @@
 
 mod depth;
 mod grid;
+mod mask;
 mod metallic;
 mod mix;
 pub mod resize;
 
 pub use depth::{Depth, half_normal};
 pub use grid::Grid;
+pub use mask::Mask;
 pub use metallic::{DIELECTRIC, base_and_metallic};
 pub use mix::Map;
 
@@ -219,6 +221,20 @@ impl<T: Real> Material<T> {
             roughness: value(roughness),
         };
         Self::new(self.name, size[0], size[1], planes)
+    }
+
+    /// The same material, flat and gray where a mask of its size leaves texels out.
+    #[must_use]
+    pub fn gray_outside(mut self, mask: &Mask) -> Self {
+        let Planes { normal: [x, y, z], diffuse, specular, roughness } = Arc::make_mut(&mut self.planes);
+        let colours =
+            diffuse.iter_mut().map(|plane| (plane, 0.2)).chain(specular.iter_mut().map(|plane| (plane, 0.0)));
+        let values = [(x, 0.0), (y, 0.0), (z, 1.0), (roughness, 1.0)];
+        for (plane, value) in colours.chain(values) {
+            let outside = plane.iter_mut().zip(mask.kept()).filter(|(_, kept)| !**kept);
+            outside.for_each(|(texel, _)| *texel = T::of(value));
+        }
+        self
     }
 
     /// The same material with another roughness: a factor times its own, and an offset, cut to [0, 1].

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 use sha2::{Digest as _, Sha256};
 
-use svbrdf_core::material::Material;
+use svbrdf_core::material::{Mask, Material};
 use svbrdf_core::progress::Progress;
 use svbrdf_files::disk::open::hexadecimal;
 
@@ -52,7 +52,7 @@ impl AnyAnalysis {
             json!({"name": material.name(), "size": material.size(), "storage": storage, "sha256": digest(numbers)})
         };
         let materials = std::iter::once(ground_truth).chain(predictions).zip(storages).map(material);
-        let bytes = |mask: &std::sync::Arc<[bool]>| mask.iter().map(|kept| u8::from(*kept)).collect();
+        let bytes = |mask: &Mask| mask.kept().iter().map(|kept| u8::from(*kept)).collect();
         Key::new(json!({
             "format": 1,
             "analysis": self.name,

@@ -6,8 +6,7 @@ use crate::report::{
     Analysis, AnalysisInput, Cell, Field, NoOptions, Reader, Report, Table, missed_by_any, scenes_line,
     stored_normals_note,
 };
-use svbrdf_core::loss::{Comparison, Compute, check_same_size};
-use svbrdf_core::material::Material;
+use svbrdf_core::loss::Compute;
 use svbrdf_core::progress::Progress;
 
 fn fields<'a>() -> [Field<(&'a LossReport, &'a PredictionLoss)>; 22] {
@@ -171,31 +170,13 @@ impl Analysis for LossReport {
 }
 
 impl LossReport {
-    fn asked<T: Compute>(
-        comparison: &Comparison<'_, T>,
-        AnalysisInput { request, few_scenes, paths, storages, convention, .. }: &AnalysisInput<'_, T>,
-        progress: &Progress,
-    ) -> Result<Self, Error> {
-        let mut report = Self::answer(comparison, request, *few_scenes, progress)?.read_from(paths);
-        report.note = stored_normals_note(convention, storages.iter().copied());
-        Ok(report)
-    }
-
     fn of<T: Compute>(input: &AnalysisInput<'_, T>, progress: &Progress) -> Result<Self, Error> {
-        let Some(mask) = &input.mask else {
-            let comparison = Comparison::new(input.ground_truth, &input.predictions, input.convention)?;
-            return Self::asked(&comparison, input, progress);
-        };
-        input.each(|prediction| Ok(check_same_size(input.ground_truth, prediction)?))?;
-        let texels: Vec<usize> = (0..mask.len()).filter(|texel| mask[*texel]).collect();
-        let kept = |material: &Material<T>| material.gathered(&texels, [texels.len(), 1]);
-        let (truth, predictions) = (kept(input.ground_truth), input.each(|one| Ok(kept(one)))?);
-        let predictions: Vec<_> = predictions.iter().collect();
-        let comparison = Comparison::new(&truth, &predictions, input.convention)?;
-        let comparison = comparison.at(input.ground_truth.grid(), &texels);
-        let mut report = Self::asked(&comparison, input, progress)?;
-        report.size = input.ground_truth.size();
-        report.masked = Some(texels.len());
-        Ok(report)
+        let AnalysisInput { request, few_scenes, paths, storages, convention, .. } = input;
+        let mut report =
+            input.comparing(|comparison| Ok(Self::answer(&comparison, request, *few_scenes, progress)?))?;
+        let masked = input.mask.as_ref().map(|mask| mask.texels().len());
+        (report.size, report.masked) = (input.ground_truth.size(), masked);
+        report.note = stored_normals_note(convention, storages.iter().copied());
+        Ok(report.read_from(paths))
     }
 }

@@ -7,7 +7,16 @@ use crate::report::{Analysis, AnalysisInput, Cell, Compared, Field, NoOptions, R
 use crate::why;
 use svbrdf_core::image::{Image, mean_of_channels};
 use svbrdf_core::loss::Comparison;
+use svbrdf_core::material::Mask;
 use svbrdf_core::progress::Progress;
+
+/// The values of the texels of a mask where these are; NaN elsewhere.
+fn spread(image: &Image<f32>, mask: &Mask) -> Image<f32> {
+    let [width, height] = mask.size();
+    let mut pixels = vec![[f32::NAN; 3]; width * height];
+    mask.texels().into_iter().zip(&image.pixels).for_each(|(texel, value)| pixels[texel] = *value);
+    Image { width, height, pixels }
+}
 
 /// The loss over texels.
 #[derive(Clone, Debug, Serialize)]
@@ -19,7 +28,7 @@ pub struct MapReport {
     shows: String,
     /// One per prediction.
     results: Vec<MapSummary>,
-    /// The loss of each texel and channel: one image per prediction.
+    /// The loss of each texel and channel: one image per prediction; NaN outside of a mask.
     #[serde(skip)]
     images: Vec<Image<f32>>,
 }
@@ -38,11 +47,11 @@ struct MapSummary {
 }
 
 impl MapSummary {
-    fn of(prediction: String, image: &Image<f32>) -> Self {
-        let all = image.pixels.iter().map(mean_of_channels).enumerate();
+    fn of(prediction: String, mean: f64, image: &Image<f32>) -> Self {
+        let all = image.pixels.iter().map(mean_of_channels).enumerate().filter(|(_, loss)| !loss.is_nan());
         let (at, largest) = all.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
         let (column, row) = (at % image.width, at / image.width);
-        Self { prediction, mean: why::mean(image), largest: largest.into(), column, row }
+        Self { prediction, mean, largest: largest.into(), column, row }
     }
 }
 
@@ -60,18 +69,29 @@ impl Analysis for MapReport {
     const DOING: &'static str = "rendering";
     const SCENES: &'static [&'static str] = &["near", "distant", "sampler", "seed", "scenes"];
     const PICTURES: bool = true;
+    const PAIRED: bool = true;
     type Options = NoOptions;
 
     fn run(input: &AnalysisInput<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
-        let AnalysisInput { ground_truth, predictions, convention, request, .. } = input;
-        let comparison = Comparison::new(*ground_truth, predictions, *convention)?.without_pilot();
+        let AnalysisInput { ground_truth, predictions, convention, request, mask, .. } = input;
         let scenes = request.scenes(convention)?.unwrap_or_default();
-        let images = why::error_maps(&comparison, &scenes, progress)?;
+        let maps = |comparison: Comparison<'_, f32>| {
+            Ok(why::error_maps(&comparison.without_pilot(), &scenes, progress)?)
+        };
+        let mut images = input.comparing(maps)?;
+        let means: Vec<f64> = images.iter().map(why::mean).collect();
+        if let Some(mask) = mask {
+            images.iter_mut().for_each(|image| *image = spread(image, mask));
+        }
         let names = predictions.iter().map(|prediction| prediction.name().to_owned());
         Ok(Self {
             compared: Compared::new(ground_truth, convention),
             shows: format!("mean {} of each texel over {} scenes", convention.norm().of_term(), scenes.len()),
-            results: names.zip(&images).map(|(name, image)| MapSummary::of(name, image)).collect(),
+            results: names
+                .zip(means)
+                .zip(&images)
+                .map(|((name, mean), image)| MapSummary::of(name, mean, image))
+                .collect(),
             images,
         })
     }
@@ -110,7 +130,7 @@ impl Report for MapReport {
             ("blue", "", |(.., [_, _, blue])| Cell::Single(*blue)),
         ];
         let rows = self.results.iter().zip(&self.images).flat_map(|(summary, image)| {
-            let all = image.pixels.iter().enumerate();
+            let all = image.pixels.iter().enumerate().filter(|(_, pixel)| !pixel[0].is_nan());
             all.map(|(at, pixel)| (summary.prediction.as_str(), [at % image.width, at / image.width], *pixel))
         });
         Table::fields(&fields, rows, reader)

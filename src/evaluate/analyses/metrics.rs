@@ -155,7 +155,7 @@ impl Analysis for MetricsReport {
         let results = input.each(|prediction| {
             let mut metrics = Vec::new();
             if options.metrics.has_maps() {
-                let kept = input.mask.as_deref().map(|texels| Kept { texels, count_all: false });
+                let kept = input.mask.as_ref().map(|mask| Kept { texels: mask.kept(), count_all: false });
                 metrics.extend(of_masked_maps(ground_truth, prediction, kept)?);
             }
             if options.metrics.has_renderings() && input.mask.is_none() {

@@ -9,7 +9,7 @@ use crate::report::{
     Analysis, AnalysisInput, Cell, Compared, Field, NoOptions, Reader, Repetition, Report, Table, bold,
     escaped, floor_line, latex, missed_by_any, scenes_line,
 };
-use svbrdf_core::loss::{Comparison, Estimate, Outcome, Request};
+use svbrdf_core::loss::{Estimate, Outcome, Request};
 use svbrdf_core::progress::Progress;
 
 /// The place of a prediction from 0, the prediction, and the requested accuracy.
@@ -187,9 +187,8 @@ impl Analysis for RankReport {
 
     fn run(input: &AnalysisInput<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
         let AnalysisInput { ground_truth, predictions, storages, convention, request, .. } = input;
-        let comparison = Comparison::new(*ground_truth, predictions, *convention)?;
-        let comparison = comparison.at_most(rank::most_scenes(predictions.len()));
-        let outcome = comparison.run(request, progress)?;
+        let most = rank::most_scenes(predictions.len());
+        let outcome = input.comparing(|comparison| Ok(comparison.at_most(most).run(request, progress)?))?;
         let report = Self::new(input.compared(), request, &outcome);
         match storages.first().filter(|storage| storage.has_steps()) {
             Some(storage) => {

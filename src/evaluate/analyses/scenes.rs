@@ -135,8 +135,8 @@ impl Analysis for ScenesReport {
     }];
 
     fn run(input: &AnalysisInput<'_>, options: &ScenesOptions, progress: &Progress) -> Result<Self, Error> {
-        let AnalysisInput { ground_truth, predictions, convention, request, .. } = input;
-        let comparison = Comparison::new(*ground_truth, predictions, *convention)?.without_pilot();
-        Ok(Self::new(input.compared(), &comparison.run(request, progress)?, options.top))
+        let run =
+            |comparison: Comparison<'_, f32>| Ok(comparison.without_pilot().run(&input.request, progress)?);
+        Ok(Self::new(input.compared(), &input.comparing(run)?, options.top))
     }
 }

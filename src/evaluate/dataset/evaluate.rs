@@ -2,17 +2,17 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::Arc;
 
 use serde_json::json;
 
 use crate::diagnose::{diagnose, floor};
 use crate::error::Error;
 use crate::metrics::{Kept, RenderedScenes, of_masked_maps, of_renderings};
-use crate::protocols::Mask;
+use crate::protocols::MaskSource;
 use crate::rank::most_scenes;
 use crate::results::{KeptAnswer, Key, ResultsFolder};
 use svbrdf_core::loss::Comparison;
+use svbrdf_core::material::Mask;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::parallel;
@@ -149,7 +149,7 @@ impl<'a> Evaluation<'a> {
     /// The result of a material, of which what was found is not computed again.
     fn computed(&self, case: &Case, found: Found) -> Result<MaterialResult, Error> {
         let (index, material, seed) = (case.index, case.material.clone(), self.seed(case));
-        let mut truth = Opened::ground_truth(&case.ground_truth, self.reading);
+        let mut truth = Opened::ground_truth(case, self.reading);
         let is_masked = self.reading.mask.is_some();
         truth.remarks.retain(|remark| !is_masked || remark.doubt.as_deref() != Some(MASK));
         let floor = self.floor(&truth, seed)?;
@@ -194,8 +194,11 @@ impl<'a> Evaluation<'a> {
             "method": method,
             "sample": sample,
         });
-        if let Some(mask) = self.reading.mask {
+        if let Some(mask) = &self.reading.mask {
             of["mask"] = json!(mask);
+            if let Some(digest) = mask.digest(&case.material) {
+                of["mask_sha256"] = json!(digest);
+            }
         }
         if self.reading.roughness != [None; 2] {
             of["roughness"] = json!(self.reading.roughness);
@@ -221,7 +224,7 @@ impl<'a> Evaluation<'a> {
         floor: Option<f64>,
         (key, seed): (Option<Key>, u64),
     ) -> Result<PredictionResult, Error> {
-        let opened = self.open(candidate, truth);
+        let opened = Opened::beside(candidate, truth, self.reading);
         // Not of files that were written while they were read.
         let found = self.dependencies(&case.ground_truth, &self.reading.ground_truths);
         let now = found.and_then(|found| self.key(case, candidate, &found, seed));
@@ -233,11 +236,6 @@ impl<'a> Evaluation<'a> {
             folder.add(&case.material, &key, &result, self.progress)?;
         }
         Ok(prediction)
-    }
-
-    /// A prediction of the size of the ground truth, or why there is none.
-    pub(super) fn open(&self, candidate: &CandidateFile, truth: &Opened) -> Opened {
-        Opened::beside(candidate, truth, self.reading)
     }
 
     /// The result of a prediction; `floor` is that of the ground truth.
@@ -273,10 +271,10 @@ impl<'a> Evaluation<'a> {
     fn loss(
         &self,
         (truth, prediction): OpenedPair<'_>,
-        kept: Option<&Arc<[bool]>>,
+        kept: Option<&Mask>,
         seed: u64,
     ) -> Result<KnownLoss, Error> {
-        let texels = kept.map(|kept| (0..kept.len()).filter(|texel| kept[*texel]).collect::<Vec<_>>());
+        let texels = kept.map(Mask::texels);
         let pair = [&truth.material, &prediction.material].map(|material| match &texels {
             Some(texels) => material.gathered(texels, [texels.len(), 1]),
             None => material.clone(),
@@ -305,15 +303,15 @@ impl<'a> Evaluation<'a> {
     fn metrics(
         &self,
         (truth, prediction): OpenedPair<'_>,
-        kept: Option<&Arc<[bool]>>,
+        kept: Option<&Mask>,
         seed: u64,
     ) -> Result<BTreeMap<String, f64>, Error> {
         let [maps, renderings] = self.settings.computes();
         let (truth, prediction) = (&truth.material, &prediction.material);
         let mut metrics = Vec::new();
         if maps {
-            let count_all = self.reading.mask == Some(Mask::AlphaElseBlack);
-            let mask = kept.map(|texels| Kept { texels, count_all });
+            let count_all = self.reading.mask == Some(MaskSource::AlphaElseBlack);
+            let mask = kept.map(|mask| Kept { texels: mask.kept(), count_all });
             metrics = of_masked_maps(truth, prediction, mask)?;
         }
         let scenes = self.settings.scenes.of_seed(seed).scenes(&self.convention)?;

@@ -31,6 +31,7 @@ pub use doubts::{DoubtCount, ReadingSummary};
 pub use evaluate::{Evaluation, run};
 pub use list::{Shard, cases_of_folders, cases_of_table};
 pub use metric_summary::{MetricRow, best_by_metric};
+pub use opened::{CaseMaterials, materials_of};
 pub use pick::{Pick, counted_loss, counted_sample};
 pub use reading::DatasetReading;
 pub use record::{

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use svbrdf_files::read::ReadOptions;
 
-use crate::protocols::{Mask, Protocol};
+use crate::protocols::{MaskSource, Protocol};
 use crate::registration::Registration;
 
 /// How the materials of a data set are read.
@@ -27,7 +27,7 @@ pub struct DatasetReading {
     pub ways: Vec<Registration>,
     /// Which texels count, where not all do.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub mask: Option<Mask>,
+    pub mask: Option<MaskSource>,
     /// Factor and offset on the roughness of ground truths and predictions.
     #[serde(skip_serializing_if = "is_nothing")]
     pub roughness: [Option<[f64; 2]>; 2],
@@ -53,7 +53,7 @@ impl DatasetReading {
             predictions: self.predictions.over(predictions.read),
             methods: self.methods.into_iter().map(method).collect(),
             ways: registration.clone(),
-            mask: self.mask.or(*mask),
+            mask: self.mask.or_else(|| mask.clone()),
             roughness: [ground_truths.roughness, predictions.roughness],
             ..self
         }

@@ -51,15 +51,11 @@ pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick
         words if words.is_empty() => "--metrics".into(),
         words => OsString::from(format!("--metrics={}", words.join(","))),
     }));
-    let of_protocol = protocol.as_ref().and_then(|protocol| protocol.mask);
-    let is_masked = reading.mask.is_some() && reading.mask != of_protocol;
-    let switches = [
-        ("--diagnose", *diagnose),
-        ("--common", settings.common),
-        ("--strict", reading.strict),
-        ("--mask=alpha", is_masked),
-    ];
+    let switches = [("--diagnose", *diagnose), ("--common", settings.common), ("--strict", reading.strict)];
     words.extend(switches.into_iter().filter(|(_, is)| *is).map(|(name, _)| OsString::from(name)));
+    let of_protocol = protocol.as_ref().and_then(|protocol| protocol.mask.as_ref());
+    let mask = reading.mask.as_ref().filter(|mask| Some(*mask) != of_protocol);
+    words.extend(mask.map(|mask| OsString::from(format!("--mask={mask}"))));
     words.extend(read_options(reading, protocol.as_ref()).into_iter().map(OsString::from));
     words.iter().map(quoted).collect::<Vec<_>>().join(" ")
 }

@@ -1,6 +1,7 @@
 //! Robustness of the order of methods over a data set.
 
 use svbrdf_core::loss::{ALL_SCENES_TARGET, Comparison, Request};
+use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::parallel;
 use svbrdf_core::progress::Progress;
@@ -8,7 +9,7 @@ use svbrdf_files::Error as FilesError;
 
 use super::bootstrap::interval_of_median;
 use super::evaluate::Evaluation;
-use super::opened::{Opened, OpenedMaterial};
+use super::opened::materials_of;
 use super::reading::DatasetReading;
 use super::record::{Case, DatasetSettings};
 use crate::error::Error;
@@ -86,30 +87,24 @@ fn over_materials(all: &[Vec<Scores>]) -> Vec<Scores> {
 /// The answers about a material, or why it cannot be asked about.
 fn of_material(case: &Case, evaluation: &Evaluation<'_>) -> Result<Result<Vec<Scores>, String>, Error> {
     let Evaluation { settings, progress, .. } = evaluation;
-    let (truth, predictions) = match opened(case, evaluation) {
+    let materials = match opened(case, evaluation) {
         Ok(opened) => opened,
         Err(problem) => return Ok(Err(problem)),
     };
-    let predictions: Vec<_> = predictions.iter().map(|one| &one.material).collect();
-    let comparison = Comparison::new(&truth.material, &predictions, settings.convention.convention)?;
+    let predictions: Vec<_> = materials[1..].iter().collect();
+    let comparison = Comparison::new(&materials[0], &predictions, settings.convention.convention)?;
     let target = settings.scenes.target().unwrap_or(ALL_SCENES_TARGET);
     let usual = Request::Accuracy { target, seed: evaluation.seed(case) };
     Ok(Ok(answers(&comparison, &usual, &progress.part())?))
 }
 
-/// The ground truth, and the first prediction of every method.
-fn opened(case: &Case, evaluation: &Evaluation<'_>) -> Result<(OpenedMaterial, Vec<OpenedMaterial>), String> {
-    let truth = Opened::ground_truth(&case.ground_truth, evaluation.reading);
-    let of_method = |method: &String| {
-        let candidate = case.candidates.iter().find(|candidate| candidate.method == *method);
-        let opened = evaluation.open(candidate.ok_or("no prediction")?, &truth);
-        match opened.truth {
-            // Questions are asked about all methods in the same scenes and texels.
-            Some(_) => Err("its predictions have another size than their ground truths".to_owned()),
-            None => opened.found,
-        }
-    };
-    let named = |method| of_method(method).map_err(|problem| format!("{method}: {problem}"));
-    let predictions = evaluation.settings.methods.iter().map(named).collect::<Result<_, _>>();
-    Ok((truth.found.map_err(|problem| format!("ground truth: {problem}"))?, predictions?))
+/// The ground truth, then the first prediction of every method.
+fn opened(case: &Case, evaluation: &Evaluation<'_>) -> Result<Vec<Material<f32>>, String> {
+    let methods = &evaluation.settings.methods;
+    let of_method = |method: &String| case.candidates.iter().find(|one| one.method == *method);
+    let candidates: Vec<_> = methods.iter().map(of_method).collect();
+    let found = materials_of(case, &candidates, evaluation.reading).materials;
+    let names = std::iter::once("ground truth").chain(methods.iter().map(String::as_str));
+    let named = |(one, name): (Result<_, String>, &str)| one.map_err(|problem| format!("{name}: {problem}"));
+    found.into_iter().zip(names).map(named).collect()
 }

@@ -13,7 +13,7 @@ use svbrdf_files::disk::inputs;
 use svbrdf_files::disk::open::NamedFile;
 
 pub(crate) use record::by_name;
-pub use record::{Aggregate, Mask, Protocol, ProtocolSource, Row, Scenes, Side};
+pub use record::{Aggregate, MaskSource, Protocol, ProtocolSource, Row, Scenes, Side};
 
 use crate::error::Error;
 use crate::metrics::MetricSelection;

@@ -2,14 +2,19 @@
 
 use std::fmt;
 use std::path::PathBuf;
+use std::str::FromStr;
 
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use sha2::{Digest as _, Sha256};
 
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::loss::{FileScenes, LossOptions};
+use svbrdf_core::material::Mask;
+use svbrdf_core::math::real::Real;
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_files::convention::ChosenConvention;
-use svbrdf_files::read::ReadOptions;
+use svbrdf_files::disk::open::{NamedFile, hexadecimal};
+use svbrdf_files::read::{Read, ReadOptions, read_mask};
 
 use crate::error::Error;
 use crate::metrics::MetricSelection;
@@ -33,7 +38,7 @@ pub struct Protocol {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub registration: Vec<Registration>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub mask: Option<Mask>,
+    pub mask: Option<MaskSource>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scenes: Option<Scenes>,
     /// The convention of the loss and of renderings, by its name.
@@ -76,14 +81,93 @@ pub struct Side {
     pub roughness: Option<[f64; 2]>,
 }
 
+/// Of a ground truth without a mask in alpha.
+const NO_ALPHA: &str = "no alpha of the ground truth is 0 or 1 nearly everywhere, and 1 somewhere";
+
 /// Which texels are compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Mask {
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MaskSource {
     /// The texels that are opaque in the alpha of the ground truth.
     Alpha,
     /// All, of which the others are black in both.
     AlphaElseBlack,
+    /// The texels that are white in a picture, or opaque in its alpha; `{}` in its path stands for the name of the material.
+    File(PathBuf),
+}
+
+impl MaskSource {
+    /// The picture of this material, where it is one.
+    fn file(&self, material: &str) -> Option<NamedFile> {
+        let Self::File(path) = self else { return None };
+        Some(NamedFile::by_user(path.to_string_lossy().replace("{}", material)))
+    }
+
+    /// The digest of the picture of this material.
+    pub(crate) fn digest(&self, material: &str) -> Option<String> {
+        let bytes = self.file(material)?.bytes().ok()?;
+        Some(hexadecimal(Sha256::new().chain_update(bytes)))
+    }
+
+    /// The mask of the ground truth `material` that was read.
+    ///
+    /// # Errors
+    /// [`Error::NoMask`]; where the picture cannot be read.
+    pub fn of<T: Real>(&self, material: &str, read: &Read<T>) -> Result<Mask, Error> {
+        let (found, problem) = match self.file(material) {
+            Some(file) => {
+                (read_mask(&file, &read.options)?, format!("{} keeps no texel", file.path().display()))
+            }
+            None => (read.mask.clone(), NO_ALPHA.to_owned()),
+        };
+        let mask = found.ok_or(Error::NoMask { problem })?;
+        let [size, expected] = [mask.size(), read.material.size()];
+        if size == expected {
+            return Ok(mask);
+        }
+        let [[w, h], [width, height]] = [size, expected];
+        let problem = format!("it has {w} x {h} texels, and the ground truth {width} x {height}");
+        Err(Error::NoMask { problem })
+    }
+}
+
+/// As it is typed: `alpha`, `alpha-else-black`, or the path of a picture.
+impl fmt::Display for MaskSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Alpha => f.write_str("alpha"),
+            Self::AlphaElseBlack => f.write_str("alpha-else-black"),
+            Self::File(path) => write!(f, "{}", path.display()),
+        }
+    }
+}
+
+impl FromStr for MaskSource {
+    type Err = CoreError;
+
+    fn from_str(text: &str) -> Result<Self, CoreError> {
+        match text {
+            "alpha" => Ok(Self::Alpha),
+            "alpha-else-black" => Ok(Self::AlphaElseBlack),
+            path if path.contains(['.', '/', '\\']) => Ok(Self::File(path.into())),
+            _ => Err(CoreError::unknown_name(
+                "mask",
+                text,
+                "alpha, or a picture such as mask.png or masks/{}.png",
+            )),
+        }
+    }
+}
+
+impl Serialize for MaskSource {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for MaskSource {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
+    }
 }
 
 /// The scenes of the loss and of renderings.

@@ -2,8 +2,11 @@
 
 use rayon::prelude::*;
 
-use svbrdf_core::material::Material;
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::check_same_size;
 use svbrdf_core::material::resize::{self, Filter, Kernel};
+use svbrdf_core::material::{Mask, Material};
+use svbrdf_core::math::real::Real;
 
 use super::Registration;
 
@@ -71,6 +74,57 @@ pub fn common(pairs: &[[&Material<f32>; 2]], allowed: &[Registration]) -> Option
         order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal)
     });
     best.filter(|best| best.correlation >= least)
+}
+
+/// A ground truth and its predictions, brought to one size.
+#[derive(Clone, Debug)]
+pub struct Registered<T> {
+    /// The ground truth first.
+    pub materials: Vec<Material<T>>,
+    pub mask: Option<Mask>,
+    /// What was done: a line.
+    pub note: Option<String>,
+}
+
+/// The part of the ground truth, the first of `materials`, that predictions of another size are compared with, of its mask, and these
+/// predictions. Of several `ways`, or of none, which are all, the maps decide; where they do not correlate in any, nothing is done.
+///
+/// # Errors
+/// [`Error::SizesDiffer`] where they correlate in none of the `ways` given; as [`Registration::applied`].
+pub fn registered<T: Real>(
+    materials: Vec<Material<T>>,
+    mask: Option<Mask>,
+    ways: &[Registration],
+) -> Result<Registered<T>, Error> {
+    let is_other = |one: &&Material<T>| one.size() != materials[0].size();
+    let others: Vec<&Material<T>> = materials.iter().skip(1).filter(is_other).collect();
+    let Some(first) = others.first() else { return Ok(Registered { materials, mask, note: None }) };
+    let truth = &materials[0];
+    let way = match ways {
+        [way] => Some(*way),
+        ways => {
+            let single: Vec<_> = others.iter().map(|one| [truth.cast::<f32>(), one.cast()]).collect();
+            let pairs: Vec<[&Material<f32>; 2]> = single.iter().map(|pair| pair.each_ref()).collect();
+            common(&pairs, ways).map(|found| found.registration)
+        }
+    };
+    let Some(way) = way else {
+        if !ways.is_empty() {
+            check_same_size(truth, first)?;
+        }
+        return Ok(Registered { materials, mask, note: None });
+    };
+    let ([w, h], [width, height]) = (truth.size(), first.size());
+    let note = format!("{way} of a ground truth of {w} x {h} to predictions of {width} x {height}");
+    let mask = mask.and_then(|mask| way.of_mask(&mask, first.size()));
+    let [part, _] = way.applied([truth, first])?;
+    let lie = |one: &Material<T>| match one.size() == truth.size() {
+        true => way.applied([one, first]).map(|[part, _]| part),
+        false => way.applied([truth, one]).map(|[_, prediction]| prediction),
+    };
+    let predictions = materials[1..].iter().map(lie).collect::<Result<Vec<_>, Error>>()?;
+    let materials = std::iter::once(part).chain(predictions).collect();
+    Ok(Registered { materials, mask, note: Some(note) })
 }
 
 /// How well the maps correlate in a registration; `None` where it is impossible.

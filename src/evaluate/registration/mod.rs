@@ -11,12 +11,13 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use svbrdf_core::error::Error;
-use svbrdf_core::material::Material;
+use svbrdf_core::loss::check_same_size;
 use svbrdf_core::material::resize::Kernel;
+use svbrdf_core::material::{Mask, Material};
 use svbrdf_core::math::real::Real;
 
 pub(crate) use find::correlation;
-pub use find::{Found, common, found};
+pub use find::{Found, Registered, common, found, registered};
 
 /// How a prediction lies on its ground truth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -36,39 +37,53 @@ impl Registration {
     /// [`Error::SizesDiffer`] where the prediction is no such part, and those of [`Material::resized`].
     pub fn applied<T: Real>(self, pair: [&Material<T>; 2]) -> Result<[Material<T>; 2], Error> {
         let [truth, prediction] = pair;
-        let [of_truth, of_prediction] = pair.map(Material::size);
-        match self {
-            Self::Resize(kernel) if of_truth[0] < of_prediction[0] => {
-                Ok([truth.clone(), prediction.clone().resized_by(of_truth, kernel)?])
-            }
-            Self::Resize(kernel) => {
-                Ok([truth.clone().resized_by(of_prediction, kernel)?, prediction.clone()])
-            }
+        let Place { whole, at, size, kernel } = self.place(pair.map(Material::size));
+        let truth = truth.clone().resized_by(whole, kernel)?;
+        let prediction = prediction.clone().resized_by(size, kernel)?;
+        if (0..2).any(|axis| at[axis] + size[axis] > whole[axis]) {
+            check_same_size(&truth, &prediction)?;
+        }
+        if whole == size {
+            return Ok([truth, prediction]);
+        }
+        let row = |y: usize| (0..size[0]).map(move |x| (at[1] + y) * whole[0] + at[0] + x);
+        let texels: Vec<usize> = (0..size[1]).flat_map(row).collect();
+        Ok([truth.gathered(&texels, size), prediction])
+    }
+
+    /// The part of the mask of a ground truth that a prediction of this size is compared with; `None` where it keeps no texel.
+    pub fn of_mask(self, mask: &Mask, prediction: [usize; 2]) -> Option<Mask> {
+        let Place { whole, at, size, .. } = self.place([mask.size(), prediction]);
+        mask.resized(whole)?.part(at, size)
+    }
+
+    /// Where a prediction lies, by the sizes of the ground truth and its own.
+    fn place(self, [truth, prediction]: [[usize; 2]; 2]) -> Place {
+        let kernel = if let Self::Resize(kernel) = self { kernel } else { Kernel::Area };
+        let (whole, at, size) = match self {
+            Self::Resize(_) if truth[0] < prediction[0] => (truth, [0; 2], truth),
+            Self::Resize(_) => (prediction, [0; 2], prediction),
             Self::CentreCrop => {
-                let at = [0, 1].map(|axis| of_truth[axis].saturating_sub(of_prediction[axis]) / 2);
-                Ok([part(truth, prediction, at)?, prediction.clone()])
+                let at = [0, 1].map(|axis| truth[axis].saturating_sub(prediction[axis]) / 2);
+                (truth, at, prediction)
             }
             Self::Crop { x, y, reduced } => {
-                let size = of_truth.map(|side| (side / reduced.max(1)).max(1));
-                Ok([part(&truth.clone().resized(size)?, prediction, [x, y])?, prediction.clone()])
+                (truth.map(|side| (side / reduced.max(1)).max(1)), [x, y], prediction)
             }
-        }
+        };
+        Place { whole, at, size, kernel }
     }
 }
 
-/// The part of `truth` from `at` on that has the size of `prediction`.
-fn part<T: Real>(
-    truth: &Material<T>,
-    prediction: &Material<T>,
+/// The place of a prediction on its ground truth.
+struct Place {
+    /// The size that the ground truth is resized to.
+    whole: [usize; 2],
+    /// The upper left texel of its part.
     at: [usize; 2],
-) -> Result<Material<T>, Error> {
-    let ([width, height], size) = (truth.size(), prediction.size());
-    if at[0] + size[0] > width || at[1] + size[1] > height {
-        svbrdf_core::loss::check_same_size(truth, prediction)?;
-    }
-    let row = |y: usize| (0..size[0]).map(move |x| (at[1] + y) * width + at[0] + x);
-    let texels: Vec<usize> = (0..size[1]).flat_map(row).collect();
-    Ok(truth.gathered(&texels, size))
+    /// The size of this part, which the prediction is resized to.
+    size: [usize; 2],
+    kernel: Kernel,
 }
 
 /// As it is typed: `resize`, `resize=cubic`, `centre-crop`, `crop=16,16` or `crop=16,16/4`.

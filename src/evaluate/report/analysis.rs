@@ -1,12 +1,10 @@
 //! An analysis: a report, and the declaration that its command, its function in Python, its JSON Schema and its table in the window follow
 //! from.
 
-use std::sync::Arc;
-
 use serde::de::DeserializeOwned;
 
-use svbrdf_core::loss::Request;
-use svbrdf_core::material::Material;
+use svbrdf_core::loss::{Comparison, Compute, Request, check_same_size};
+use svbrdf_core::material::{Mask, Material};
 use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
@@ -31,8 +29,8 @@ pub struct AnalysisInput<'a, T: Real = f32> {
     pub request: Request,
     /// Whether nothing else was asked for: the loss over the few scenes of the papers stands beside the answer.
     pub few_scenes: bool,
-    /// Which texels a mask keeps, where there is one: for losses and metrics.
-    pub mask: Option<Arc<[bool]>>,
+    /// Which texels are compared, where not all are: for losses, maps and metrics.
+    pub mask: Option<Mask>,
 }
 
 impl<T: Real> AnalysisInput<'_, T> {
@@ -52,6 +50,25 @@ impl<T: Real> AnalysisInput<'_, T> {
     /// Names the sampled scenes; 0 for listed ones.
     pub fn seed(&self) -> u64 {
         self.request.seed().unwrap_or(0)
+    }
+}
+
+impl<T: Compute> AnalysisInput<'_, T> {
+    /// What `of` makes of the comparison of the materials, over the texels of the mask.
+    ///
+    /// # Errors
+    /// Those of [`Comparison::new`] and its own.
+    pub fn comparing<R>(&self, of: impl FnOnce(Comparison<'_, T>) -> Result<R, Error>) -> Result<R, Error> {
+        let Some(mask) = &self.mask else {
+            return of(Comparison::new(self.ground_truth, &self.predictions, self.convention)?);
+        };
+        self.each(|prediction| Ok(check_same_size(self.ground_truth, prediction)?))?;
+        let texels = mask.texels();
+        let kept = |material: &Material<T>| material.gathered(&texels, [texels.len(), 1]);
+        let (truth, predictions) = (kept(self.ground_truth), self.each(|one| Ok(kept(one)))?);
+        let predictions: Vec<_> = predictions.iter().collect();
+        let comparison = Comparison::new(&truth, &predictions, self.convention)?;
+        of(comparison.at(self.ground_truth.grid(), &texels))
     }
 }
 

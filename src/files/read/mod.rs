@@ -28,6 +28,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 pub use formats::{Binding, Sidecar, is_prefix};
+pub use interpret::read_mask;
 pub use names::{EXTENSIONS, sets};
 pub use options::{
     Albedo, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions, Reflectance, Role,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use svbrdf_core::material::Material;
+use svbrdf_core::material::{Mask, Material};
 
 use crate::disk::memory::Reserved;
 use crate::error::{Error, Guess};
@@ -20,8 +20,8 @@ use crate::read::stored::{StoredMap, StoredMaterial};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Read<T> {
     pub material: Material<T>,
-    /// Of each texel whether it is opaque, where the alpha of a map is a mask: 0 or 1 nearly everywhere.
-    pub mask: Option<Arc<[bool]>>,
+    /// Which texels are opaque, where the alpha of a map is a mask: 0 or 1 nearly everywhere.
+    pub mask: Option<Mask>,
     /// The assumptions, each with its reason.
     pub assumptions: Vec<Assumption>,
     /// Other things that were noticed.

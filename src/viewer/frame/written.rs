@@ -106,7 +106,7 @@ pub fn strip(displayed: &Displayed<'_>) -> Writing {
     Box::new(move |path, progress| {
         let destination = Destination::of_figure(path)?;
         let all: Vec<&Material<f32>> = all.iter().map(|loaded| loaded.material()).collect();
-        let figure = strip.figure(&all, &names, progress)?;
+        let figure = strip.figure(&all, &names, None, progress)?;
         Ok(destination.write_figure(&figure, &strip.entries(&names), progress)?)
     })
 }

@@ -5,6 +5,8 @@ mod statement;
 
 use std::str::FromStr;
 
+use svbrdf_core::error::Error as CoreError;
+use svbrdf_evaluate::registration::Registration;
 use svbrdf_files::Error;
 use svbrdf_files::read::{Preset, ReadOptions};
 use svbrdf_files::source::MaterialSource;
@@ -28,6 +30,25 @@ pub struct PairReadingArgs {
     #[arg(long, value_name = "gt|pred|N", allow_negative_numbers = true)]
     #[arg(value_parser = offered(str::parse::<ResizeTo>, ["gt", "pred"]), hide_possible_values = true)]
     pub resize_to: Option<ResizeTo>,
+
+    /// How predictions of another size lie on the ground truth [default: found by the maps]
+    ///
+    /// resize, resize=cubic, centre-crop, crop=X,Y, or crop=X,Y/N of a ground truth reduced by N; for a data set after NAME: for one method
+    /// only. May be given several times.
+    #[arg(long, value_name = "[METHOD:]WAY", hide_short_help = true)]
+    #[arg(value_parser = offered(registered, WAYS), hide_possible_values = true)]
+    pub register: Vec<(Option<String>, Registration)>,
+}
+
+/// Ways of registration, to be completed.
+const WAYS: [&str; 5] = ["resize", "resize=cubic", "centre-crop", "crop=16,16", "crop=0,0/4"];
+
+/// A registration, after the name of a method that it is for.
+fn registered(text: &str) -> Result<(Option<String>, Registration), CoreError> {
+    match text.rsplit_once(':') {
+        Some((method, way)) => Ok((Some(method.to_owned()), way.parse()?)),
+        None => Ok((None, text.parse()?)),
+    }
 }
 
 /// How materials are read. Options that are left out are inferred from the files and reported.

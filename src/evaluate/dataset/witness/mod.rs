@@ -18,6 +18,7 @@ use svbrdf_files::read::{self, Read, ReadOptions};
 use super::reading::DatasetReading;
 use super::record::Case;
 use crate::error::Error;
+use crate::protocols::MaskSource;
 use crate::registration;
 use group::{Group, Sampled};
 
@@ -56,13 +57,13 @@ pub fn decided(
     for method in methods {
         let pairs: Vec<_> = materials.iter().filter_map(|one| one.pair(method)).collect();
         let found = register(&mut decided, method, &pairs);
-        groups.push((method, sampled(&pairs, found, decided.mask.is_some())));
+        groups.push((method, sampled(&pairs, found)));
     }
     decide(&mut decided, &groups);
     Ok(decided)
 }
 
-/// A ground truth that was read, and the first prediction of each method.
+/// A ground truth that was read, with the mask that is asked for, and the first prediction of each method.
 struct Beside<'a> {
     truth: Option<Read<f32>>,
     predictions: BTreeMap<&'a str, Read<f32>>,
@@ -81,8 +82,13 @@ impl<'a> Beside<'a> {
         let of = |one: &'a super::CandidateFile| {
             Some((one.method.as_str(), read(&one.path, reading.of_method(&one.method))?))
         };
+        let masked = |mut truth: Read<f32>| {
+            let mask = |mask: &MaskSource| mask.of(&case.material, &truth).ok();
+            truth.mask = reading.mask.as_ref().and_then(mask);
+            truth
+        };
         Self {
-            truth: read(&case.ground_truth, &reading.ground_truths),
+            truth: read(&case.ground_truth, &reading.ground_truths).map(masked),
             predictions: first.filter_map(of).collect(),
         }
     }
@@ -118,23 +124,18 @@ fn register(
 }
 
 /// Texels of the pairs that can be compared.
-fn sampled(
-    pairs: &[PairRead<'_>],
-    found: Option<registration::Registration>,
-    is_masked: bool,
-) -> Vec<[Sampled; 2]> {
+fn sampled(pairs: &[PairRead<'_>], found: Option<registration::Registration>) -> Vec<[Sampled; 2]> {
     let of = |pair: &PairRead<'_>| {
         let materials = pair.map(|read| &read.material);
+        let (mut mask, size) = (pair[0].mask.clone(), materials[1].size());
         let [truth, prediction] = match found {
-            Some(registration) if materials[0].size() != materials[1].size() => {
+            Some(registration) if materials[0].size() != size => {
+                mask = mask.and_then(|mask| registration.of_mask(&mask, size));
                 registration.applied(materials).ok()?
             }
             _ => materials.map(Clone::clone),
         };
-        let [width, height] = truth.size();
-        let mask = pair[0].mask.as_ref().filter(|mask| is_masked && mask.len() == width * height);
-        let kept = mask.map(|mask| (0..mask.len()).filter(|texel| mask[*texel]).collect::<Vec<_>>());
-        let [truth, prediction] = match kept.filter(|kept| !kept.is_empty()) {
+        let [truth, prediction] = match mask.map(|mask| mask.texels()) {
             Some(kept) if truth.size() == prediction.size() => {
                 [truth, prediction].map(|one| one.gathered(&kept, [kept.len(), 1]))
             }

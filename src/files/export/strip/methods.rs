@@ -2,7 +2,7 @@
 
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::image::Image;
-use svbrdf_core::material::Material;
+use svbrdf_core::material::{Mask, Material};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::PictureContent;
@@ -44,6 +44,8 @@ pub struct MethodStrip {
 pub struct MethodRow {
     /// The ground truth, then a prediction of each method; `None` where there is none. One of another size is as none.
     pub materials: Vec<Option<Material<f32>>>,
+    /// Texels outside of it are gray.
+    pub mask: Option<Mask>,
     /// What stands below each of them, such as its loss; none without.
     pub texts: Vec<String>,
 }
@@ -167,7 +169,9 @@ impl MethodStrip {
                 }
             };
             let pixels = image.pixels.iter().map(|rgb| content.colour(*rgb, ev)).collect();
-            cells.push(Image { width: image.width, height: image.height, pixels });
+            let mut cell = Image { width: image.width, height: image.height, pixels };
+            row.mask.iter().for_each(|mask| mask.gray_outside(&mut cell));
+            cells.push(cell);
         }
         Ok(cells)
     }
@@ -214,7 +218,7 @@ mod tests {
         let texts = ["", "0.3218", "0.2047"].map(str::to_owned).to_vec();
         let mut lacking = all.clone();
         lacking[2] = None;
-        [all, lacking].map(|materials| MethodRow { materials, texts: texts.clone() }).to_vec()
+        [all, lacking].map(|materials| MethodRow { materials, mask: None, texts: texts.clone() }).to_vec()
     }
 
     /// The figure of those rows.

@@ -6,7 +6,7 @@ mod methods;
 mod sheet;
 
 use svbrdf_core::image::Image;
-use svbrdf_core::material::Material;
+use svbrdf_core::material::{Mask, Material};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::picture::content::ColouredDifference;
 use svbrdf_core::progress::Progress;
@@ -35,7 +35,7 @@ pub struct Strip {
 
 impl Strip {
     /// The figure of `materials` of one size, the ground truth first, under their names. Each cell has the pixels that
-    /// `svbrdf render` writes, but for the frames of crops; in a PNG a texel is a pixel, or a square of them.
+    /// `svbrdf render` writes, but for the frames of crops and for texels outside of the `mask`, which are gray; in a PNG a texel is a pixel, or a square of them.
     ///
     /// # Errors
     /// [`Error::CropOutside`], [`Error::FigureTooNarrow`], those of
@@ -44,6 +44,7 @@ impl Strip {
         &self,
         materials: &[&Material<f32>],
         names: &[String],
+        mask: Option<&Mask>,
         progress: &Progress,
     ) -> Result<Figure, Error> {
         let sheet = Sheet::new(self.paper, self.columns.len(), names, !self.crops.is_empty())?;
@@ -73,7 +74,8 @@ impl Strip {
             let from = materials.len() - pictures.images.len();
             for (number, image) in (from..).zip(pictures.images) {
                 let pixels = image.pixels.iter().map(|&rgb| content.colour(rgb, self.exposure_ev)).collect();
-                let cell = Image { width: image.width, height: image.height, pixels };
+                let mut cell = Image { width: image.width, height: image.height, pixels };
+                mask.inspect(|mask| mask.gray_outside(&mut cell));
                 division.put(&mut figure, [sheet.left(index), top(number)], cell);
             }
             legends.extend(content.difference.map(|difference| (index, difference)));

@@ -7,16 +7,18 @@ mod normals;
 mod values;
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::material::{Mask, Material, Planes};
 use svbrdf_core::math::real::Real;
 
+use crate::disk::inputs;
+use crate::disk::open::NamedFile;
 use crate::error::Error;
+use crate::read::decode::{self, Layer};
 use crate::read::options::{Energy, Preset, ReadOptions, Reflectance, Role};
-use crate::read::record::{Assumption, Certainty, Note, Reason, What};
+use crate::read::record::{Assumption, Certainty, Note, Reason, Subject, What};
 use crate::read::stored::{StoredMap, StoredMaterial};
 
 use values::{Clamped, colour_planes, gray_plane, roughness_encoding, roughness_plane};
@@ -63,7 +65,7 @@ const BORDER: f64 = 0.05;
 const EMPTY: f64 = 0.25;
 
 /// Which texels are opaque, where the alpha of a map is a mask.
-pub(super) fn mask(found: &mut StoredMaterial, options: &ReadOptions) -> Option<Arc<[bool]>> {
+pub(super) fn mask(found: &mut StoredMaterial, options: &ReadOptions) -> Option<Mask> {
     let size = found.colour.raster.size();
     let is_mask = |alpha: &Vec<f32>| {
         let between = alpha.iter().filter(|value| (0.02..0.98).contains(*value)).count();
@@ -73,15 +75,33 @@ pub(super) fn mask(found: &mut StoredMaterial, options: &ReadOptions) -> Option<
         let alpha = source.raster.alpha.as_ref().filter(|_| source.raster.size() == size)?;
         Some((map, alpha.decoded::<f32>(|value| value))).filter(|(_, alpha)| is_mask(alpha))
     })?;
-    let mut mask: Vec<bool> = alpha.iter().map(|value| *value >= 0.5).collect();
-    if options.flip_v == Some(true) {
-        mask = mask.rchunks(size[0]).flatten().copied().collect();
-    }
-    let empty = mask.iter().filter(|is_opaque| !**is_opaque).count() as f64 / mask.len() as f64;
+    let mask = mask_of(&alpha, size, options)?;
+    let empty = mask.kept().iter().filter(|is_opaque| !**is_opaque).count() as f64 / alpha.len() as f64;
     if (EMPTY..1.0).contains(&empty) {
         found.notes.push(Note::MaskInAlpha { map, empty });
     }
-    Some(mask.into())
+    Some(mask)
+}
+
+/// The mask of samples, at least half.
+fn mask_of(samples: &[f32], size: [usize; 2], options: &ReadOptions) -> Option<Mask> {
+    let kept = samples.iter().map(|value| *value >= 0.5);
+    let is_mirrored = options.flip_v == Some(true);
+    let rows = |kept: Vec<bool>| kept.rchunks(size[0]).flatten().copied().collect();
+    Mask::new(size, if is_mirrored { rows(kept.collect()) } else { kept.collect() })
+}
+
+/// Reads a mask from the picture `file`, any that opens as a map: texels of at least half of its white, or in its alpha where it has one.
+/// Its rows are those of a material that is read by `options`. `None`: none is.
+///
+/// # Errors
+/// [`Error::Unreadable`], [`Error::BadImage`].
+pub fn read_mask(file: &NamedFile, options: &ReadOptions) -> Result<Option<Mask>, Error> {
+    let (Layer { raster, .. }, _) = decode::one(file, Subject::Picture)?;
+    inputs::protect(file.path());
+    let samples = raster.alpha.as_ref().or(raster.channels.first());
+    let values: Vec<f32> = samples.map(|samples| samples.decoded(|value| value)).unwrap_or_default();
+    Ok(mask_of(&values, raster.size(), options))
 }
 
 /// Notes the maps whose alpha is not used, also not by another map.
