@@ -82,7 +82,7 @@ const MODES: &[&str] = &[
 #[rustfmt::skip]
 const VALUES: &[(&str, &str)] = &[
     ("adapter", "llvmpipe"),
-    ("text-pt", "9"), ("width-mm", "120"), ("columns", "roughness"),
+    ("text-pt", "9"), ("width-mm", "120"), ("height-mm", "150"), ("columns", "roughness"),
     ("convention", "guided-2020"), ("crop", "1,1,3,3"), ("depth", "16"),
     ("distance-tail", "0.001%"), ("distant", "5"), ("exposure", "1"), ("fail-above", "0.0001"),
     ("figures", "worst:1"), ("fixed", "0.1,0.2,1"), ("format", "json"), ("fov", "30"),

@@ -46,6 +46,10 @@ pub struct StripArgs {
     #[arg(long, value_name = "MM", value_parser = values::millimetres)]
     width_mm: Option<f64>,
 
+    /// The most height of a figure of a data set in millimetres: it is made narrower
+    #[arg(long, value_name = "MM", value_parser = values::millimetres, conflicts_with = "width_mm")]
+    height_mm: Option<f64>,
+
     /// Size of its text in points
     #[arg(long, value_name = "PT", value_parser = values::points, default_value_t = Paper::default().text_pt)]
     text_pt: f64,
@@ -111,7 +115,9 @@ impl StripArgs {
         if is_data_set {
             let columns = columns(&self, None)?;
             self.refuse_unused(&columns, given)?;
-            let look = Look { columns, exposure_ev: self.rendering.exposure, crops: self.crops, paper };
+            let height_mm = self.height_mm;
+            let look =
+                Look { columns, exposure_ev: self.rendering.exposure, crops: self.crops, paper, height_mm };
             return strip_methods::job(
                 (&self.comparison, self.mask.mask),
                 (self.pairs, &self.materials),
@@ -120,6 +126,11 @@ impl StripArgs {
                 self.output,
             );
         }
+        refuse(
+            self.height_mm.is_some(),
+            "height-mm",
+            "only a figure of --dataset or --pairs has a given height",
+        )?;
         let reason = "losses below cells are those of --dataset or --pairs";
         refuse(self.results.is_some(), "results", reason)?;
         refuse(

@@ -20,6 +20,10 @@ use crate::cli::job::{Job, NewJob};
 use crate::cli::output::{CommandError, exit, stoppable, watched_on};
 use crate::cli::rank::cases;
 
+/// A millimetre in points.
+const MILLIMETRE: f64 = 72.0 / 25.4;
+/// The least step of a figure that becomes narrower.
+const LESS: f64 = 0.99;
 /// Pixels of an inch in a cell: as printed.
 const DPI: f64 = 300.0;
 
@@ -32,6 +36,7 @@ pub struct MethodsJob {
     output: PathBuf,
     destination: Destination,
     strip: MethodStrip,
+    height_mm: Option<f64>,
 }
 
 /// How the figure looks.
@@ -41,6 +46,7 @@ pub struct Look {
     pub exposure_ev: Option<f32>,
     pub crops: Vec<Crop>,
     pub paper: Paper,
+    pub height_mm: Option<f64>,
 }
 
 /// The job of the figure of a data set, which shows one column in each cell; GT may be a table of pairs.
@@ -56,7 +62,7 @@ pub fn job(
     let reason =
         "a figure tells what cannot be read, and `svbrdf rank --dataset --verbose` all that is noticed";
     refuse(given.both.verbose, "verbose", reason)?;
-    let Look { columns, exposure_ev, crops, paper } = look;
+    let Look { columns, exposure_ev, crops, paper, height_mm } = look;
     let [column] = columns.as_slice() else {
         return Err(CommandError::usage(
             "a figure of methods shows one thing in one scene; give one of --columns, such as rendering or rendering:log",
@@ -76,7 +82,7 @@ pub fn job(
     }
     let scene = column.scene;
     let strip = MethodStrip { content, scene, convention, exposure_ev, crops, paper, dpi: DPI };
-    Ok(Box::new(MethodsJob { settings, reading, cases, results, output, destination, strip }))
+    Ok(Box::new(MethodsJob { settings, reading, cases, results, output, destination, strip, height_mm }))
 }
 
 /// The cases of these materials, in their order.
@@ -123,12 +129,21 @@ impl MethodsJob {
         let methods = &settings.methods;
         let materials: &Vec<String> = &cases.iter().map(|case| case.material.clone()).collect();
         let row = |index: usize| self.row(&cases[index], losses.get(index));
-        let figure =
-            watched_on(progress, "rendering", |progress| strip.figure(methods, materials, row, progress))?;
-        let height_mm = figure.size[1] * 25.4 / 72.0;
+        let drawn = |strip: &MethodStrip| {
+            watched_on(progress, "rendering", |progress| strip.figure(methods, materials, row, progress))
+        };
+        let mut figure = drawn(strip)?;
+        let limit = self.height_mm.map(|height| height * MILLIMETRE);
+        while let Some(most) = limit.filter(|most| figure.size[1] > *most) {
+            // Texts do not shrink, so that it takes more than one step.
+            let width = figure.size[0] * (most / figure.size[1]).min(LESS) / MILLIMETRE;
+            let paper = Paper { width_mm: Some(width), ..strip.paper };
+            figure = drawn(&MethodStrip { paper, ..strip.clone() })?;
+        }
+        let height_mm = figure.size[1] / MILLIMETRE;
         if height_mm > PAGE_MM {
             exit::tell(&format!(
-                "note: the figure is {height_mm:.0} mm high, more than the {PAGE_MM} mm of a page; choose some of the \
+                "note: the figure is {height_mm:.0} mm high, more than the {PAGE_MM} mm of a page; give --height-mm, or some of the \
                  {} materials by --materials",
                 materials.len()
             ));
