@@ -1,5 +1,6 @@
 //! The authors' own renderers at probe points.
 
+use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::grammar::{Description, Point};
 use svbrdf_core::model::named_conventions as named;
 use svbrdf_evaluate::conform::{RenderedPoints, VerdictKind, identify, verdict};
@@ -68,5 +69,19 @@ fn every_peer_is_found_and_no_other_renderer_has_a_name() {
             .collect();
         let others = terms.iter().filter(|term| !OF_THE_PROBES.contains(&term.as_str()) && *term != "normal");
         assert_eq!(others.collect::<Vec<_>>(), Vec::<&String>::new(), "{name} and our {convention}");
+    }
+}
+
+/// Lengths to which a little is added darken the highlights of mirrors: nothing is left of renderers that add it.
+#[needs(shared)]
+fn renderers_that_add_to_lengths_are_found_whole() {
+    let points = super::points();
+    let asked = Description::from(&PRINTED).terms;
+    for name in ["lookahead-2022", "deepbasis-2023"] {
+        let text = std::fs::read_to_string(format!("{PEERS}/conventions/{name}.toml")).unwrap();
+        let of: Description = text.parse().unwrap();
+        let radiance = points.iter().map(|point| of.terms.radiance(point, true)).collect();
+        let found = super::judged(&points, radiance, Some(false), &asked);
+        assert!(found.residual < 1e-5, "{name}: {found:?}");
     }
 }

@@ -17,8 +17,9 @@ pub const SPOTS: [f64; 8] = [0.0, 1.0, 2.0, 4.0, 5.0, 8.0, 10.0, 16.0];
 pub type SetNumber = fn(&mut RendererTerms, f64);
 
 /// Every number that is a floor or is added to something, and where it is 0 in [`RendererTerms::BASE`].
-const FLOORS: [SetNumber; 21] = [
+const FLOORS: [SetNumber; 22] = [
     |t, x| t.material.r_min = x,
+    |t, x| t.material.vec_eps = x,
     |t, x| t.specular.d_den_min = x,
     |t, x| t.specular.d_add = x,
     |t, x| t.specular.d_den2_min = x,

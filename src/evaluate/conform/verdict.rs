@@ -65,7 +65,11 @@ pub fn verdict(found: &Identified, asked: &Description) -> Verdict {
         (true, true) => VerdictKind::Conforms,
         (true, false) => VerdictKind::Differs,
     };
-    Verdict { kind, terms, differences, residual: problem.residual(fit) }
+    let residual = problem.residual(fit);
+    // What changes less than what remains may stand for another term.
+    let is_told = |one: &TermGap| !explained || one.gap.is_none_or(|gap| gap >= residual);
+    let differences = differences.into_iter().filter(is_told).collect();
+    Verdict { kind, terms, differences, residual }
 }
 
 /// The sections that the fit itself does not decide.
