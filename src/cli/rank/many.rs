@@ -137,7 +137,8 @@ impl ManyJob {
     fn evaluate(self, progress: &Progress) -> Result<(), CommandError> {
         let Self { settings, reading, shard, robust, .. } = &self;
         if let (true, Output::Text(output)) = (*robust, &self.output) {
-            let report = asked(&self.cases, settings, reading, progress)?;
+            let reading = dataset::decided(&self.cases, reading.clone(), progress)?;
+            let report = asked(&self.cases, settings, &reading, progress)?;
             return Ok(output.put(&report, RobustReport::latex)?);
         }
         let (strict, is_part) = (reading.strict, shard.is_some());
