@@ -1,6 +1,8 @@
 //! Window of the system: opened with the adapter that the panes need, and closed with the error of a panic or of a lost device.
 
 use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
 
 use eframe::egui;
 use eframe::egui_wgpu::{WgpuSetup, WgpuSetupCreateNew};
@@ -23,6 +25,8 @@ const MOST: f32 = 16_384.0;
 
 /// The exit code after a signal, as of the command line.
 const INTERRUPTED: i32 = 130;
+/// How long a window may take to close after one.
+const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Opens the window and returns when it is closed.
 ///
@@ -62,7 +66,8 @@ fn open(options: ViewerOptions) -> Result<(), Error> {
     guard.outcome(result)
 }
 
-/// Closes the window at a signal that ends the program. A second one ends it at once.
+/// Closes the window at a signal that ends the program, or ends it where the system asks a hidden window for no frame. A second signal ends
+/// it at once.
 fn stop_at_signals(guard: &CrashGuard, ctx: &egui::Context) {
     let (guard, ctx) = (guard.clone(), ctx.clone());
     signals::on_end(move || {
@@ -70,6 +75,10 @@ fn stop_at_signals(guard: &CrashGuard, ctx: &egui::Context) {
             std::process::exit(INTERRUPTED);
         }
         ctx.request_repaint();
+        thread::spawn(|| {
+            thread::sleep(PATIENCE);
+            std::process::exit(INTERRUPTED);
+        });
     });
 }
 
