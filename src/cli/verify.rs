@@ -45,7 +45,8 @@ pub fn run(args: &VerifyArgs, parse: impl FnOnce(Vec<String>) -> Parsed) -> Resu
         let first = problem.to_string().lines().next().unwrap_or_default().to_owned();
         CommandError::Usage(format!("{path}: the command that repeats it was altered: {first}"))
     };
-    let (rank, specified) = parse(dataset::shell_words(&command)).map_err(bad)?.ok_or_else(none)?;
+    let words = dataset::without_decisions(dataset::shell_words(&command), &written);
+    let (rank, specified) = parse(words).map_err(bad)?.ok_or_else(none)?;
     let computed = rank::written(rank, &specified, format_of(&written))?;
     let found = dataset::differences(&written, &computed);
     let are_last = found.iter().all(|one| one.share < LAST_DIGITS);

@@ -42,5 +42,5 @@ pub use repetition::digests;
 pub use robust::robust;
 pub use scenes::DatasetScenes;
 pub use summary::{DatasetReport, MarkSummary, MethodSummary, MetricSummary};
-pub use verify::{TableDifference, command, differences, shell_words};
+pub use verify::{TableDifference, command, differences, shell_words, without_decisions};
 pub use witness::decided;

@@ -138,6 +138,31 @@ pub fn shell_words(command: &str) -> Vec<String> {
     words
 }
 
+/// The words of a command without the readings and registrations that the table `written` says were decided by its materials, which decide
+/// again.
+pub fn without_decisions(words: Vec<String>, written: &str) -> Vec<String> {
+    let (mut kept, mut words) = (Vec::new(), words.into_iter());
+    while let Some(word) = words.next() {
+        let value = if ["--read", "--register"].contains(&&*word) { words.next() } else { None };
+        let left = value.as_ref().map(|value| open(value, written));
+        kept.extend((left.as_deref() != Some("")).then_some(word));
+        kept.extend(left.filter(|left| !left.is_empty()));
+    }
+    kept
+}
+
+/// What of `WHOSE:OPTION,...` or `METHOD:WAY` was not decided by materials; empty where that is nothing.
+fn open(value: &str, written: &str) -> String {
+    let Some((whose, options)) = value.split_once(':') else { return value.to_owned() };
+    let name = if whose == "gt" { "ground truths" } else { whose };
+    if written.contains(&format!("{name}: {options} of ground truths of ")) {
+        return String::new();
+    }
+    let is_open = |option: &&str| !written.contains(&format!("{name}: {option} for all: "));
+    let left: Vec<&str> = options.split(',').filter(is_open).collect();
+    if left.is_empty() { String::new() } else { format!("{whose}:{}", left.join(",")) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -185,6 +210,11 @@ theirs & 0.1098 & [0.0877, 0.1321] & 0.0940 & 12 \\\\
         for text in [TABLE, &json.to_string(), &page, &csv] {
             assert_eq!(command(text).as_deref(), Some(expected), "{text}");
         }
+        let decided = "ours: centre-crop of ground truths of 8 x 8\nours: albedo=srgb for all: 3\nground truths: albedo=linear for all: 3";
+        let typed = "rank --read gt:albedo=linear --read ours:albedo=srgb,normal-y=up --register ours:centre-crop --register b:crop=1,2 --near 1";
+        let left = without_decisions(shell_words(typed), decided);
+        assert_eq!(left.join(" "), "rank --read ours:normal-y=up --register b:crop=1,2 --near 1");
+        assert_eq!(without_decisions(shell_words(typed), "").join(" "), typed);
         assert_eq!(command("a picture"), None);
         assert_eq!(shell_words(expected)[5], "their s");
     }
