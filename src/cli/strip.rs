@@ -47,7 +47,7 @@ pub struct StripArgs {
     width_mm: Option<f64>,
 
     /// The most height of a figure of a data set in millimetres: it is made narrower
-    #[arg(long, value_name = "MM", value_parser = values::millimetres, conflicts_with = "width_mm")]
+    #[arg(long, value_name = "MM", value_parser = values::millimetres, conflicts_with = "width_mm", hide_short_help = true)]
     height_mm: Option<f64>,
 
     /// Size of its text in points
