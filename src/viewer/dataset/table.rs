@@ -296,13 +296,14 @@ impl MatrixTable<'_> {
             let mut hover =
                 format!("{}\nThe largest losses of this method first; again: the least", methods[method]);
             if let Some((place, one)) = found {
-                let [low, high] = one.interval95_materials.unwrap_or(one.interval95_scenes).map(digits);
-                let of = if one.interval95_materials.is_some() { "materials" } else { "scenes" };
+                let interval = one.interval95_materials.map(|ends| ends.map(digits));
+                let over =
+                    interval.map_or("few materials".to_owned(), |[low, high]| format!("[{low}, {high}]"));
                 let rank = if one.compared { format!("rank {place}") } else { "unranked".to_owned() };
                 let count = format!("{} of {} materials", one.materials, one.materials + one.failures);
-                hover = format!("{hover}\nmean {mean}, 95% over {of} [{low}, {high}], {rank}, {count}");
+                hover = format!("{hover}\nmean {mean}, 95% over materials: {over}; {rank}, {count}");
                 told = if self.has_pictures { format!("{mean}  {rank}{arrow}") } else { told };
-                paint(2, &format!("[{low}, {high}]"), &fonts.1, ui.visuals().weak_text_color());
+                paint(2, &over, &fonts.1, ui.visuals().weak_text_color());
             }
             paint(1, &told, &fonts.1, ui.visuals().text_color());
             let line = room.with_min_y(room.bottom() - 3.0).with_max_y(room.bottom() - 1.0);
