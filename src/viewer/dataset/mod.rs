@@ -12,24 +12,12 @@ use eframe::egui;
 
 use crate::dataset::matrix::Matrix;
 use crate::dataset::pictures::MatrixCell;
+pub use crate::dataset::table::DatasetUi;
 use crate::dataset::table::MatrixTable;
 use crate::jobs::{Jobs, Shown};
 use crate::model::Model;
 use crate::widgets::bare;
 use crate::widgets::paint::PanelTextures;
-
-/// The table between frames.
-#[derive(Debug, Default)]
-pub struct DatasetUi {
-    /// How far it is scrolled without and with pictures, in points.
-    offsets: [egui::Vec2; 2],
-    /// How far it is to be scrolled in the next frame.
-    scrolled: Option<egui::Vec2>,
-    /// The cell under the pointer in the last frame.
-    hovered: Option<MatrixCell>,
-    /// The material that it has scrolled to, and whether with pictures.
-    scrolled_to: Option<(usize, bool)>,
-}
 
 impl DatasetUi {
     /// What is known of the cell under the pointer, where the table is in the place of the panes.

@@ -15,7 +15,7 @@ use svbrdf_core::text::line;
 
 use crate::dataset::matrix::{Matrix, texts};
 use crate::dataset::pictures::{self, CellPictures, DrawCells, MatrixCell, ReadCells, ReadRow};
-use crate::dataset::{DatasetUi, summary};
+use crate::dataset::summary;
 use crate::jobs::Shown;
 use crate::jobs::answers::Answered;
 use crate::model::dataset::DatasetState;
@@ -89,6 +89,19 @@ impl Places {
     fn body(&self) -> Rect {
         Rect::from_min_max(self.view.min + vec2(self.names, self.head), self.view.max)
     }
+}
+
+/// The table between frames.
+#[derive(Debug, Default)]
+pub struct DatasetUi {
+    /// How far it is scrolled without and with pictures, in points.
+    pub(super) offsets: [egui::Vec2; 2],
+    /// How far it is to be scrolled in the next frame.
+    pub(super) scrolled: Option<egui::Vec2>,
+    /// The cell under the pointer in the last frame.
+    pub(super) hovered: Option<MatrixCell>,
+    /// The material that it has scrolled to, and whether with pictures.
+    pub(super) scrolled_to: Option<(usize, bool)>,
 }
 
 /// The table, in place of the panes where it has pictures, or beside them.
