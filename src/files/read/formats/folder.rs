@@ -49,7 +49,16 @@ pub(super) fn locate(path: &Path, folder: &Path, prefix: &str, bound: &[Role]) -
         let picture = lone_picture(path, folder, &names, &found.unlabelled)?;
         return Ok(Located::new([Candidate::Picture(picture)]));
     }
-    Ok(Located::new([Candidate::Set(found)]))
+    // Its name, such as m.exr, may be that of a map by chance.
+    let mut pictures = names.iter().filter(|name| set::is_picture(name));
+    let packed = match (pictures.next(), pictures.next()) {
+        (Some(only), None) if prefix.is_empty() && bound.is_empty() => {
+            let file = NamedFile::by_file(folder.join(only), folder);
+            Some(Candidate::Picture(WholePicture { file, refusal: None }))
+        }
+        _ => None,
+    };
+    Ok(Located::new(packed.into_iter().chain([Candidate::Set(found)])))
 }
 
 /// The only file of a folder without pictures and folders, as an archive or a glTF may be.

@@ -238,11 +238,13 @@ fn recognized(image: &Raster, grid: TileGrid, options: &ReadOptions) -> Option<T
     ));
     let first = |order: Order| start + count - order.len();
     let against = |order: &Order| contradicted(image, grid, first(*order), *order);
-    let (why, certainty) = match against(&usual) {
-        Some(tile) => (why.contradicted(&tile), Certainty::Unsure),
-        None => (why, Certainty::Likely),
+    let (order, why, certainty) = match against(&usual) {
+        Some(tile) => {
+            let other = known.into_iter().find(|order| *order != usual && against(order).is_none());
+            (other.unwrap_or(usual), why.contradicted(&tile), Certainty::Unsure)
+        }
+        None => (usual, why, Certainty::Likely),
     };
-    let order = known.into_iter().find(|order| against(order).is_none()).unwrap_or(usual);
     Some(Tiling { grid, order, first: first(order), why, certainty })
 }
 

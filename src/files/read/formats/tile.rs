@@ -13,9 +13,13 @@ const NEARLY_ALL: f64 = 0.98;
 
 /// Why a tile cannot be the map of this role; `None` where it can.
 pub(super) fn contradiction(tile: &Raster, role: Role) -> Option<&'static str> {
+    if !matches!(role, Role::Roughness | Role::Metallic | Role::Specular) {
+        return None;
+    }
+    // Read once: in a large picture each is far from the others.
+    let texels: Vec<[f64; 3]> = tile.sampled().map(|index| tile.rgb(index)).collect();
     let share = |is: &dyn Fn([f64; 3]) -> bool| {
-        let (count, found) = (tile.sampled().count(), tile.sampled().filter(|i| is(tile.rgb(*i))).count());
-        found as f64 / count.max(1) as f64
+        texels.iter().filter(|rgb| is(**rgb)).count() as f64 / texels.len().max(1) as f64
     };
     let within =
         |low: f64, high: f64| move |rgb: [f64; 3]| rgb.into_iter().all(|value| (low..=high).contains(&value));

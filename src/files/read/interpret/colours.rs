@@ -63,17 +63,22 @@ fn evidence_of(found: &StoredMaterial, open: [bool; 2], options: &ReadOptions) -
     match &found.specular {
         Some(specular) if open == [true; 2] => {
             let mut common: Vec<_> = [prior].into_iter().chain(jpeg(&[diffuse, specular])).collect();
-            common.extend(evidence::measured(&diffuse.raster, &specular.raster));
+            let are_one_size = diffuse.raster.size() == specular.raster.size();
+            let diffuse = if are_one_size { evidence::texels(&diffuse.raster) } else { Vec::new() };
+            let specular = evidence::texels(&specular.raster);
+            common.extend(evidence::measured(&diffuse, &specular));
             // The two differ only where evidence about diffuse alone does.
-            let bright = evidence::too_bright(&diffuse.raster, &specular.raster);
+            let bright = evidence::too_bright(&diffuse, &specular);
             [common.iter().copied().chain(bright).collect(), common]
         }
         Some(specular) if open[1] => {
-            let of_specular = evidence::dielectrics(&specular.raster);
+            let of_specular = evidence::dielectrics(&evidence::texels(&specular.raster));
             let all = [prior].into_iter().chain(jpeg(&[specular])).chain(of_specular);
             [Vec::new(), all.collect()]
         }
-        _ if open[0] => [evidence::alone(&diffuse.raster).into_iter().collect(), Vec::new()],
+        _ if open[0] => {
+            [evidence::alone(&evidence::texels(&diffuse.raster)).into_iter().collect(), Vec::new()]
+        }
         _ => Default::default(),
     }
 }

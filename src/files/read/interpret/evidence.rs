@@ -19,19 +19,22 @@ const METAL_AT_LEAST: f64 = 0.3;
 /// Share of the texels that have to be of metal.
 const MOSTLY: f64 = 0.5;
 
-/// The evidence of a colour without specular that is so dark if encoded that it may be linear.
-pub(super) fn alone(colour: &Raster) -> Option<Evidence> {
-    dark(colour, |_| false).filter(|dark| dark.log_odds() >= DARK)
+type Rgb = [f64; 3];
+
+/// The texels of a map that are looked at. They are read once: in a large picture each is far from the others.
+pub(super) fn texels(map: &Raster) -> Vec<Rgb> {
+    map.sampled().map(|index| map.rgb(index)).collect()
 }
 
-/// The evidence of the pixels of both together.
-pub(super) fn measured(diffuse: &Raster, specular: &Raster) -> Vec<Evidence> {
-    let dark = if diffuse.size() == specular.size() {
-        let is_metal = |i: usize| most(specular.rgb(i)) > METAL_AT_LEAST;
-        dark(diffuse, is_metal)
-    } else {
-        None
-    };
+/// The evidence of a colour without specular that is so dark if encoded that it may be linear.
+pub(super) fn alone(colour: &[Rgb]) -> Option<Evidence> {
+    dark(colour.len(), colour.iter()).filter(|dark| dark.log_odds() >= DARK)
+}
+
+/// The evidence of the [`texels`] of both together; without those of diffuse, of specular alone.
+pub(super) fn measured(diffuse: &[Rgb], specular: &[Rgb]) -> Vec<Evidence> {
+    let without_metal = diffuse.iter().zip(specular).filter(|(_, s)| most(s) <= METAL_AT_LEAST);
+    let dark = dark(diffuse.len(), without_metal.map(|(d, _)| d));
     let others = [metals(diffuse, specular), no_material(diffuse, specular)].into_iter().flatten();
     dielectrics(specular).into_iter().chain(dark).chain(others).collect()
 }
@@ -40,84 +43,73 @@ pub(super) fn is_jpeg(file: &Path) -> bool {
     matches!(extension(file).as_str(), "jpg" | "jpeg" | "jfif" | "jpe")
 }
 
-/// The evidence of texels with the specular of dielectrics, 0.04, as it is or encoded.
-pub(super) fn dielectrics(specular: &Raster) -> Option<Evidence> {
-    let (mut count, mut plain, mut encoded) = (0_u32, 0_u32, 0_u32);
-    for index in specular.sampled() {
-        let least = specular.rgb(index).into_iter().fold(f64::INFINITY, f64::min);
-        count += 1;
-        plain += u32::from((0.03..=0.06).contains(&least));
-        encoded += u32::from((0.2..=0.26).contains(&least));
-    }
-    let share = |texels: u32| f64::from(texels) / f64::from(count.max(1));
-    let evidence = if plain > encoded {
-        Evidence::LinearDielectrics(share(plain))
-    } else {
-        Evidence::EncodedDielectrics(share(encoded))
-    };
-    (share(plain.max(encoded)) > CHANCE).then_some(evidence)
+/// The share of the items that are so.
+fn share<T>(all: impl ExactSizeIterator<Item = T>, is_so: impl Fn(T) -> bool) -> f64 {
+    let count = all.len().max(1);
+    all.map(is_so).filter(|is_so| *is_so).count() as f64 / count as f64
 }
 
-/// The evidence where the colour of texels without metal is so dark if encoded that it is rather linear.
-fn dark(colour: &Raster, is_metal: impl Fn(usize) -> bool) -> Option<Evidence> {
-    let mean = |index| colour.rgb(index).iter().sum::<f64>() / 3.0;
-    let mut values: Vec<f64> =
-        colour.sampled().filter(|i| !is_metal(*i)).map(mean).filter(|value| *value > BLACK).collect();
-    let share = values.len() as f64 / colour.sampled().count().max(1) as f64;
+/// The evidence of texels with the specular of dielectrics, 0.04, as it is or encoded.
+pub(super) fn dielectrics(specular: &[Rgb]) -> Option<Evidence> {
+    let within = |low: f64, high: f64| share(specular.iter(), |rgb| (low..=high).contains(&least(rgb)));
+    let (plain, encoded) = (within(0.03, 0.06), within(0.2, 0.26));
+    let evidence = match plain > encoded {
+        true => Evidence::LinearDielectrics(plain),
+        false => Evidence::EncodedDielectrics(encoded),
+    };
+    (plain.max(encoded) > CHANCE).then_some(evidence)
+}
+
+/// The evidence where the colour of those of `count` texels that are without metal is so dark if encoded that it is rather linear.
+fn dark<'a>(count: usize, colours: impl Iterator<Item = &'a Rgb>) -> Option<Evidence> {
+    let mut values: Vec<f64> = colours.map(mean).filter(|value| *value > BLACK).collect();
+    let share = values.len() as f64 / count.max(1) as f64;
     let median = median(&mut values).filter(|_| share > MOSTLY)?;
     (likelihood(median, ALBEDO) >= 1.0).then_some(Evidence::Dark(median))
 }
 
 /// The evidence of the reflectance of metals, where most texels are metal: their diffuse is black.
-fn metals(diffuse: &Raster, specular: &Raster) -> Option<Evidence> {
-    if diffuse.size() != specular.size() {
-        return None;
-    }
-    let is_metal = |i: &usize| most(diffuse.rgb(*i)) < BLACK && most(specular.rgb(*i)) > METAL_AT_LEAST;
-    let mut values: Vec<f64> =
-        specular.sampled().filter(is_metal).map(|i| specular.rgb(i).iter().sum::<f64>() / 3.0).collect();
-    let share = values.len() as f64 / specular.sampled().count().max(1) as f64;
+fn metals(diffuse: &[Rgb], specular: &[Rgb]) -> Option<Evidence> {
+    let pairs = diffuse.iter().zip(specular);
+    let of_metal = pairs.filter(|(d, s)| most(d) < BLACK && most(s) > METAL_AT_LEAST);
+    let mut values: Vec<f64> = of_metal.map(|(_, s)| mean(s)).collect();
+    let share = values.len() as f64 / specular.len().max(1) as f64;
     let median = median(&mut values).filter(|_| share > MOSTLY)?;
     Some(Evidence::Metals { median, log_odds: likelihood(median, METAL).clamp(-SURE, SURE) })
 }
 
 /// The evidence of texels that are those of no material if they are linear: too bright a specular for a dielectric, and too bright a
 /// diffuse for a metal.
-fn no_material(diffuse: &Raster, specular: &Raster) -> Option<Evidence> {
-    if diffuse.size() != specular.size() {
-        return None;
-    }
+fn no_material(diffuse: &[Rgb], specular: &[Rgb]) -> Option<Evidence> {
     let is_one = |[d, s]: [f64; 2]| d > METAL_DIFFUSE && s > MOST_DIELECTRIC;
-    let least = |rgb: [f64; 3]| rgb.into_iter().fold(1.0, f64::min);
-    let (mut count, mut found) = (0_u32, 0_u32);
-    for index in diffuse.sampled() {
-        let stored = [diffuse, specular].map(|map| least(map.rgb(index)).max(0.0));
-        count += 1;
-        found += u32::from(is_one(stored) && !is_one(stored.map(|value| linear(value, Albedo::Srgb))));
-    }
-    let share = f64::from(found) / f64::from(count.max(1));
+    let share = share(diffuse.iter().zip(specular), |(d, s)| {
+        let stored = [d, s].map(|rgb| least(rgb).clamp(0.0, 1.0));
+        is_one(stored) && !is_one(stored.map(|value| linear(value, Albedo::Srgb)))
+    });
     (share > CHANCE).then_some(Evidence::NoMaterial(share))
 }
 
-fn most(rgb: [f64; 3]) -> f64 {
-    rgb.into_iter().fold(0.0, f64::max)
+fn most(rgb: &Rgb) -> f64 {
+    rgb.iter().copied().fold(0.0, f64::max)
+}
+
+fn least(rgb: &Rgb) -> f64 {
+    rgb.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+fn mean(rgb: &Rgb) -> f64 {
+    rgb.iter().sum::<f64>() / 3.0
 }
 
 /// The evidence of texels that reflect more light than arrives if they are linear, and not if they are encoded.
-pub(super) fn too_bright(diffuse: &Raster, specular: &Raster) -> Option<Evidence> {
-    if diffuse.size() != specular.size() {
-        return None;
-    }
-    let (mut count, mut bright) = (0_u32, 0_u32);
-    for index in diffuse.sampled() {
-        let pairs = || diffuse.rgb(index).into_iter().zip(specular.rgb(index));
-        let encoded = |(d, s): (f64, f64)| {
-            linear(d.clamp(0.0, 1.0), Albedo::Srgb) + linear(s.clamp(0.0, 1.0), Albedo::Srgb)
-        };
-        count += 1;
-        bright += u32::from(pairs().any(|(d, s)| d + s > 1.0) && pairs().all(|pair| encoded(pair) <= 1.0));
-    }
-    let share = f64::from(bright) / f64::from(count.max(1));
+pub(super) fn too_bright(diffuse: &[Rgb], specular: &[Rgb]) -> Option<Evidence> {
+    let encoded = |(d, s): (f64, f64)| {
+        linear(d.clamp(0.0, 1.0), Albedo::Srgb) + linear(s.clamp(0.0, 1.0), Albedo::Srgb)
+    };
+    let share = share(diffuse.iter().zip(specular), |(d, s)| {
+        let pairs = || d.iter().copied().zip(s.iter().copied());
+        pairs().any(|(d, s)| d + s > 1.0) && pairs().all(|pair| encoded(pair) <= 1.0)
+    });
     (share > BRIGHT_CHANCE).then_some(Evidence::TooBright(share))
 }
 
