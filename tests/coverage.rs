@@ -3,6 +3,7 @@
 pub(crate) mod measured;
 mod pairs;
 
+use rayon::prelude::*;
 use svbrdf_core::loss::{Compute, Estimate, Request, Sampling, Texels};
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::sampler::Sampler;
@@ -68,7 +69,7 @@ fn the_interval_of_a_difference_covers_it() {
         svbrdf_core::loss::Comparison::new(&a.ground_truth, &[&a.prediction, &b.prediction], PRINTED)
             .unwrap();
     let expected = a.reference - b.reference;
-    let held = (0..MORE_SEEDS).filter(|&seed| {
+    let held = (0..MORE_SEEDS).into_par_iter().filter(|&seed| {
         let request = Request::Scenes(Sampling { seed, ..Sampling::default() });
         let outcome = comparison.run(&request, &Progress::default()).unwrap();
         holds(&outcome.difference(0, 1), expected)

@@ -201,7 +201,8 @@ const ALL: [(&str, Renderer); 24] = [
 
 #[test]
 fn no_renderer_outside_of_the_grammar_has_a_name_and_what_they_are_made_from_has_one() {
-    let points = points();
+    // A third of the probes tells.
+    let points: Vec<_> = points().into_iter().step_by(3).collect();
     let kind = |of: Renderer| {
         let radiance: Vec<_> = points.iter().map(|point| single(of(point, &angles(point)))).collect();
         judged(&points, radiance, Some(false), &base()).kind
