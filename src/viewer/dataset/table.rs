@@ -34,7 +34,7 @@ const NUMBER: egui::Vec2 = vec2(58.0, 21.0);
 const NAMES: f32 = 84.0;
 const WIDE_NAMES: f32 = 132.0;
 /// Least and greatest side of a picture that is fitted to the window, in points.
-const LEAST: f32 = 72.0;
+const LEAST: f32 = 110.0;
 const MOST: f32 = 184.0;
 /// Height of a line of a head, and gap between cells, in points.
 const LINE: f32 = 16.0;
