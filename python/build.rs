@@ -24,6 +24,8 @@ const ANALYSES: &str = r#""""The analyses of predictions of one ground truth: of
 from collections.abc import Sequence
 from typing import Literal
 
+from numpy.typing import ArrayLike
+
 from . import _map, _reports
 from ._arrays import Precision
 from ._asked import Asked, Predictions, Scenes
@@ -179,6 +181,16 @@ fn of_scenes(name: &str) -> [String; 3] {
     [name.to_owned(), format!("{kind}{default}"), about]
 }
 
+/// What decides which texels are compared, as of [`arguments`]: all functions have the first.
+const BESIDE: [[&str; 3]; 2] = [
+    [
+        "register",
+        "str",
+        "How predictions of another size lie on the ground truth, such as \"centre-crop\"; None: found by the maps, with a warning.",
+    ],
+    ["mask", "ArrayLike", "Height x width, true for the texels that are compared; None: all."],
+];
+
 /// The function of an analysis.
 fn function(analysis: &AnyAnalysis, report: &str) -> String {
     let AnyAnalysis { name, about, details, example, doing, .. } = analysis;
@@ -190,6 +202,12 @@ fn function(analysis: &AnyAnalysis, report: &str) -> String {
             let _ = write!(given, r#""{name}": {name}, "#);
         }
     }
+    let is_masked = analysis.paired || *name == "rank";
+    for [name, kind, about] in &BESIDE[..=usize::from(is_masked)] {
+        let _ = writeln!(parameters, "    {name}: {kind} | None = None,");
+        let _ = writeln!(docs, "        {name}: {about}");
+    }
+    let beside = if is_masked { ", register=register, mask=mask" } else { ", register=register" };
     let about = about.replace("Prints", "Computes").replace("Writes", "Computes").replace(" to a file", "");
     let report = if report == OF_PACKAGE { format!("_map.{report}") } else { format!("_reports.{report}") };
     let details = details.replace("--", "");
@@ -214,7 +232,7 @@ def {name}(
 
 {example}    Args:
         ground_truth: A material, or the path of one.
-        predictions: One or several materials or paths, of the same size.
+        predictions: One or several materials or paths, of the same surface.
 {docs}        convention: A name that `svbrdf conventions` lists, or the path of a .toml file.
         progress: True for a bar of tqdm, or a function of (steps done, steps in all).
 
@@ -223,7 +241,7 @@ def {name}(
         svbrdf.Error: A material or a scene cannot be used, the sizes differ, or an option has no such value or is not used.
         TypeError, ValueError: Another argument has a wrong type or makes no sense.
     """
-    asked = Asked(ground_truth, predictions, {{{given}}}, convention{precision})
+    asked = Asked(ground_truth, predictions, {{{given}}}, convention{precision}{beside})
     return asked.answer({report}, "{name}", "{doing}", progress)
 "#
     )

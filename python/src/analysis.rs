@@ -6,9 +6,9 @@ use pyo3::prelude::*;
 use serde_json::Value;
 use svbrdf_core::image::Image;
 use svbrdf_core::loss::Precision;
-use svbrdf_core::material::Material;
 use svbrdf_evaluate::Error as EvaluateError;
 use svbrdf_evaluate::analyses::{AnyAnalysis, Precise};
+use svbrdf_evaluate::registration::Registered;
 use svbrdf_evaluate::report::AnalysisInput;
 
 use crate::arrays;
@@ -36,17 +36,17 @@ pub fn analysis<'py>(
 ) -> PyResult<AnalysisItems<'py>> {
     let analysis = AnyAnalysis::named(name).ok_or_else(|| Error::new_err(format!("no analysis {name}")))?;
     match Precision::from_str(&asked.precision).map_err(exception)? {
-        Precision::F32 => report(py, analysis, &asked, &asked.materials(CoreMaterial::single), progress),
-        Precision::F64 => report(py, analysis, &asked, &asked.materials(CoreMaterial::double), progress),
+        Precision::F32 => report(py, analysis, &asked, &asked.materials(CoreMaterial::single)?, progress),
+        Precision::F64 => report(py, analysis, &asked, &asked.materials(CoreMaterial::double)?, progress),
     }
 }
 
-/// The report about the first of `materials` as the ground truth and the others as predictions.
+/// The report about the first of the materials as the ground truth and the others as predictions.
 fn report<'py, T: Precise>(
     py: Python<'py>,
     analysis: &AnyAnalysis,
     asked: &Asked<'_>,
-    materials: &[Material<T>],
+    Registered { materials, mask, note }: &Registered<T>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<AnalysisItems<'py>> {
     let is_own = |name: &String| analysis.options.iter().any(|option| option.name == name);
@@ -60,7 +60,7 @@ fn report<'py, T: Precise>(
         convention: asked.convention()?,
         request: analysis.request(&scenes, None).map_err(exception)?,
         few_scenes: scenes.is_open(),
-        mask: None,
+        mask: mask.clone(),
     };
     // A report is no value of several threads.
     let (views, images) = work::run(py, progress, |progress| {
@@ -72,5 +72,8 @@ fn report<'py, T: Precise>(
         arrays::array(py, pixels.into_flattened().into_iter(), [width, height], 3)
     };
     let maps = images.map(|images| images.into_iter().map(map).collect::<PyResult<_>>()).transpose()?;
-    Ok(AnalysisItems { views: views?, maps })
+    let mut views = views?;
+    // What was asked for needs no word.
+    views.warnings.extend(note.clone().filter(|_| asked.register.is_none()));
+    Ok(AnalysisItems { views, maps })
 }

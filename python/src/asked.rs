@@ -5,13 +5,15 @@ use std::path::Path;
 use pyo3::prelude::*;
 use serde_json::{Map, Value};
 use svbrdf_core::loss::LossOptions;
-use svbrdf_core::material::Material;
+use svbrdf_core::material::{Mask, Material};
 use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::text::of_json;
 use svbrdf_evaluate::analyses::options_of;
+use svbrdf_evaluate::registration::{Registered, Registration, registered};
 use svbrdf_files::{convention, scene_file};
 
+use crate::arrays;
 use crate::errors::{Error, exception};
 use crate::material::CoreMaterial;
 
@@ -49,6 +51,10 @@ pub struct Asked<'py> {
     pub precision: String,
     /// [`LossOptions`], and the own ones of an analysis, as JSON.
     pub question: String,
+    /// How predictions of another size lie on the ground truth; `None`: found by the maps.
+    pub register: Option<String>,
+    /// Which texels are compared: an array of booleans of the size of the ground truth.
+    pub mask: Option<Bound<'py, PyAny>>,
 }
 
 impl Asked<'_> {
@@ -60,9 +66,20 @@ impl Asked<'_> {
         convention::of_loss(&self.convention).map_err(exception)
     }
 
-    /// The materials as the report calls them: each as `of` takes it from Python.
-    pub fn materials<T: Real>(&self, of: impl Fn(&CoreMaterial) -> Material<T>) -> Vec<Material<T>> {
+    /// The materials as the report calls them, each as `of` takes it from Python, brought to one size with the mask.
+    ///
+    /// # Errors
+    /// Where the mask keeps no texel, or predictions are no such part.
+    pub fn materials<T: Real>(&self, of: impl Fn(&CoreMaterial) -> Material<T>) -> PyResult<Registered<T>> {
         let all = self.materials.iter().zip(&self.names);
-        all.map(|(material, name)| of(material.get()).renamed(name)).collect()
+        let materials: Vec<_> = all.map(|(material, name)| of(material.get()).renamed(name)).collect();
+        let way = self.register.as_deref().map(str::parse::<Registration>).transpose().map_err(exception)?;
+        let none_kept =
+            || Error::new_err("mask: expected a texel of the predictions that is compared, found none");
+        let mask = |array| Mask::new(materials[0].size(), arrays::plane(array)?).ok_or_else(none_kept);
+        let mask = self.mask.as_ref().map(mask).transpose()?;
+        let is_masked = mask.is_some();
+        let found = registered(materials, mask, way.as_slice()).map_err(exception)?;
+        if is_masked && found.mask.is_none() { Err(none_kept()) } else { Ok(found) }
     }
 }

@@ -8,7 +8,8 @@ use svbrdf_evaluate::KeptAnswer;
 use svbrdf_evaluate::dataset::{self, DatasetReading, DatasetReport, DatasetSettings, Method, Pick, Source};
 
 use svbrdf_evaluate::metrics::MetricSelection;
-use svbrdf_evaluate::protocols::Protocol;
+use svbrdf_evaluate::protocols::{MaskSource, Protocol};
+use svbrdf_evaluate::registration::Registration;
 use svbrdf_files::convention::ChosenConvention;
 
 use crate::asked::{options, question};
@@ -16,6 +17,12 @@ use crate::errors::exception;
 use crate::material::read_options;
 use crate::report::ReportViews;
 use crate::work;
+
+/// The registrations of these names.
+fn parsed(ways: BTreeMap<String, String>) -> PyResult<BTreeMap<String, Registration>> {
+    let one = |(method, way): (String, String)| Ok((method, way.parse::<Registration>().map_err(exception)?));
+    ways.into_iter().map(one).collect()
+}
 
 /// What is asked for.
 #[derive(Debug, FromPyObject)]
@@ -34,6 +41,10 @@ pub struct DatasetAsked {
     metrics: Option<Vec<String>>,
     /// A name of a protocol, or a file.
     protocol: Option<String>,
+    /// Ways of registration by the name of a method.
+    register: BTreeMap<String, String>,
+    /// `alpha`, or the path of a picture.
+    mask: Option<String>,
     common: bool,
     diagnose: bool,
     results: Option<PathBuf>,
@@ -61,6 +72,8 @@ pub fn rank_dataset(
             .iter()
             .map(|(name, options)| Ok((name.clone(), read_options(options)?)))
             .collect::<PyResult<_>>()?,
+        registrations: parsed(asked.register)?,
+        mask: asked.mask.as_deref().map(str::parse::<MaskSource>).transpose().map_err(exception)?,
         strict: asked.strict,
         ..DatasetReading::default()
     };

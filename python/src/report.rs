@@ -16,7 +16,7 @@ pub struct ReportViews {
     /// The text for people with its table as HTML.
     html: String,
     /// What is known less well than requested.
-    warnings: Vec<String>,
+    pub warnings: Vec<String>,
 }
 
 impl ReportViews {

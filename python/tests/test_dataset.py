@@ -6,9 +6,11 @@ import subprocess
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import svbrdf
 from conftest import maps, problems
+from PIL import Image
 
 
 @pytest.fixture
@@ -19,6 +21,7 @@ def dataset(tmp_path: Path) -> Path:
     for index in range(8):
         truth = maps(12, 10, index)
         svbrdf.write(svbrdf.Material(**truth), tmp_path / "gt" / f"m{index}.exr", depth="float")
+        Image.fromarray(255 * (truth["roughness"] > 0.5).astype(np.uint8)).save(tmp_path / f"m{index}.png")
         for method, share in {"good": 0.9, "bad": 0.6}.items():
             near = {**truth, "roughness": truth["roughness"] * share, "diffuse": truth["diffuse"] * share}
             name = f"m{index}_0.exr" if (method, index) == ("bad", 1) else f"m{index}.exr"
@@ -55,6 +58,7 @@ def predictions(report: svbrdf.DatasetReport) -> list[svbrdf.PredictionResult]:
         (["--pick", "best", "--diagnose"], {"pick": "best", "diagnose": True}),
         (["--protocol", "marigold-iid"], {"protocol": "marigold-iid"}),
         (["--metrics=rmse_roughness,psnr"], {"metrics": ["rmse_roughness", "psnr"]}),
+        (["--mask", "{}.png", "--register", "resize"], {"mask": "{}.png", "register": "resize"}),
         ([], {}),
     ],
 )
@@ -127,6 +131,8 @@ def test_read_options_reach_the_files_and_wrong_ones_are_refused(dataset: Path) 
         first(read_ground_truth={"normal_y": "left"})
     with pytest.raises(svbrdf.Error, match="unknown choice of samples"):
         first(pick="last")
+    with pytest.raises(ValueError, match="register: no method is named good; the names are bad"):
+        first(register={"good": "resize"})
     with pytest.raises(FileNotFoundError):
         svbrdf.rank_dataset(dataset / "nowhere", dataset / "bad")
     with pytest.raises(ValueError, match="methods: expected at least one"):

@@ -103,3 +103,27 @@ def test_a_target_that_is_not_reached_is_a_warning_as_on_the_command_line() -> N
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert svbrdf.loss(ground_truth, prediction, target_error=0.1).target_reached
+
+
+def test_a_mask_and_a_registration_are_parts_of_the_question() -> None:
+    truth, ours = maps(24, 20, 1), maps(24, 20, 2)
+    kept = np.zeros((24, 20), bool)
+    kept[4:20, 4:16] = True
+    other = {name: values.copy() for name, values in ours.items()}
+    other["roughness"][~kept] = 0.9
+    a, b, c = (svbrdf.Material(**one) for one in (truth, ours, other))
+    losses = [svbrdf.loss(a, one, near=4, mask=kept).results[0].loss for one in (b, c)]
+    assert losses[0] == losses[1] != svbrdf.loss(a, b, near=4).results[0].loss
+    (values,) = svbrdf.map(a, b, near=4, mask=kept).maps
+    assert np.isnan(values[~kept]).all()
+    assert np.isfinite(values[kept]).all()
+    part = svbrdf.Material(**{name: values[4:20, 4:16] for name, values in truth.items()})
+    assert svbrdf.loss(a, part, near=4, register="centre-crop").results[0].loss == 0
+    with pytest.warns(UserWarning, match="centre-crop of a ground truth of 20 x 24"):
+        assert svbrdf.loss(a, part, near=4).results[0].loss == 0
+    with pytest.raises(svbrdf.Error, match="mask: expected a texel"):
+        svbrdf.loss(a, b, near=4, mask=np.zeros((24, 20), bool))
+    with pytest.raises(ValueError, match=r"mask: expected the height x width .*, 24 x 20, found 20 x 24"):
+        svbrdf.loss(a, b, near=4, mask=kept.T)
+    with pytest.raises(TypeError, match="mask: expected booleans, found float64"):
+        svbrdf.loss(a, b, near=4, mask=np.ones((24, 20)))

@@ -44,6 +44,26 @@ def as_array(name: str, given: object, channels: int, precision: str) -> NDArray
     return np.require(array, requirements=["C_CONTIGUOUS", "ALIGNED"])
 
 
+def as_mask(given: object, size: tuple[int, int]) -> NDArray[np.bool_]:
+    """Which texels are compared, as the core reads it.
+
+    Args:
+        given: An array, or what numpy makes an array of.
+        size: The (height, width) that it must have.
+
+    Raises:
+        TypeError: These are no booleans.
+        ValueError: The shape is another one.
+    """
+    mask = np.asarray(given)
+    if mask.dtype != np.bool_:
+        raise TypeError(f"mask: expected booleans, found {mask.dtype}; compare its values, as in mask > 0.5")
+    if mask.shape != size:
+        expected, found = (" x ".join(map(str, shape)) or "one value" for shape in (size, mask.shape))
+        raise ValueError(f"mask: expected the height x width of the ground truth, {expected}, found {found}")
+    return np.ascontiguousarray(mask)
+
+
 def _check_shape(name: str, array: NDArray[Any], channels: int) -> None:
     if channels == 1:
         fits, expected = array.ndim == 2, "height x width"

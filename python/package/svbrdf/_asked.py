@@ -6,8 +6,10 @@ import os
 from collections.abc import Sequence
 from typing import Any, Literal, TypedDict, TypeVar
 
+from numpy.typing import ArrayLike
+
 from . import _core
-from ._arrays import Precision
+from ._arrays import Precision, as_mask
 from ._material import Material, Source, opened
 from ._progress import Report as Progress
 from ._progress import reported
@@ -40,6 +42,8 @@ class Asked:
         question: Any,
         convention: str = "printed",
         precision: Precision = "f32",
+        register: str | None = None,
+        mask: ArrayLike | None = None,
     ) -> None:
         """`question`: options by name; None is left open."""
         asked = question_json(**question)
@@ -54,6 +58,8 @@ class Asked:
             "convention": convention,
             "precision": precision,
             "question": asked,
+            "register": register,
+            "mask": None if mask is None else as_mask(mask, materials[0].size[::-1]),
         }
         """The first argument of the function."""
 

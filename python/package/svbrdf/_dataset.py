@@ -23,6 +23,8 @@ def rank_dataset(
     strict: bool = False,
     metrics: bool | Sequence[str] = False,
     protocol: Source | None = None,
+    register: str | Mapping[str, str] | None = None,
+    mask: Source | None = None,
     common: bool = False,
     diagnose: bool = False,
     results: Source | None = None,
@@ -49,6 +51,10 @@ def rank_dataset(
             as `["rmse_normal", "psnr"]`. docs/metrics.md defines them.
         protocol: The name of a protocol, such as "weiyi", or its .toml file. It decides reading, registration, mask,
             scenes, convention and metrics; what `read_ground_truth` and the like specify counts before it.
+        register: How predictions of another size lie on their ground truths, such as "centre-crop", or that by the name
+            of a method; None: found by the maps.
+        mask: "alpha" compares only the texels that are opaque in the alpha of the ground truth; the path of a picture
+            those that are white in it, where `{}` stands for the name of the material: "masks/{}.png".
         common: Whether to compare all methods over the materials that all have.
         diagnose: Whether to mark what an error of exposure, alignment or reading explains of each loss, as
             `svbrdf.diagnose` does, and the losses that the ground truth does not resolve.
@@ -72,15 +78,22 @@ def rank_dataset(
         svbrdf.Error: A folder has no materials, or an option has no such value or is not used.
         TypeError, ValueError: An argument has a wrong type or makes no sense.
     """
+    named = _named(methods)
+    names = [name for name, _ in named]
+    ways = dict.fromkeys(names, register) if isinstance(register, str) else dict(register or {})
+    if unknown := [name for name in ways if name not in names]:
+        raise ValueError(f"register: no method is named {unknown[0]}; the names are {', '.join(names)}")
     asked = {
         "ground_truths": ground_truths,
-        "methods": _named(methods),
+        "methods": named,
         "question": question_json(**question),
         "convention": convention,
         "pick": pick,
         "strict": strict,
         "metrics": None if metrics is False else [] if metrics is True else list(metrics),
         "protocol": None if protocol is None else os.fspath(protocol),
+        "register": ways,
+        "mask": None if mask is None else os.fspath(mask),
         "common": common,
         "diagnose": diagnose,
         "results": results,
