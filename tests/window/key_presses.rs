@@ -122,6 +122,18 @@ fn the_keys_of_other_viewers_go_on_close_and_magnify() {
     assert_eq!(prediction(&window), 0);
     press_with(&mut window, Modifiers::CTRL, egui::Key::Tab);
     assert_eq!(prediction(&window), 1);
+    // As keyboards send it: the sign of the key in the layout, and the key itself.
+    window.event(egui::Event::Key {
+        key: egui::Key::Exclamationmark,
+        physical_key: Some(egui::Key::Num1),
+        pressed: true,
+        repeat: false,
+        modifiers: Modifiers::SHIFT,
+    });
+    window.run_steps(3);
+    assert_eq!(window.names(), ["blurred normals", "worn tiles", "wrong roughness"]);
+    press_with(&mut window, Modifiers::SHIFT, egui::Key::Num1);
+    assert_eq!(window.names(), ["worn tiles", "blurred normals", "wrong roughness"]);
     press_with(&mut window, Modifiers::COMMAND, egui::Key::Num0);
     assert_eq!(window.view().display.framing.unwrap().pixels_per_texel, 1.0);
     press_with(&mut window, Modifiers::COMMAND, egui::Key::W);

@@ -147,9 +147,11 @@ fn section(
     ui.horizontal(|ui| {
         ui.label(RichText::new(role).color(colour).small());
         if index > 0 {
-            let swap = ui.small_button("Make ground truth");
-            if swap.on_hover_text("Compare the others with this one").clicked() {
-                next.materials.make_ground_truth(index);
+            let is_pair = next.dataset.open.is_none();
+            let swap = ui.add_enabled(is_pair, egui::Button::new("Make ground truth").small());
+            let number = material.slot;
+            if swap.on_hover_text(format!("Compare the others with this one (Shift+{number})")).clicked() {
+                opening::make_ground_truth(next, index);
             }
             if ui.small_button("Close").on_hover_text("Take it out of the comparison").clicked() {
                 opening::close(next, index);

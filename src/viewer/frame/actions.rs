@@ -21,16 +21,24 @@ pub struct Line {
     pub actions: &'static [Action],
 }
 
-const NONE: Modifiers = Modifiers::NONE;
-const SHIFT: Modifiers = Modifiers::SHIFT;
-const COMMAND: Modifiers = Modifiers::COMMAND;
-const BOTH: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
+pub const NONE: Modifiers = Modifiers::NONE;
+pub const SHIFT: Modifiers = Modifiers::SHIFT;
+pub const COMMAND: Modifiers = Modifiers::COMMAND;
+pub const BOTH: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 const fn line(keys: &'static str, effect: &'static str, actions: &'static [Action]) -> Line {
     Line { keys, effect, actions }
 }
 
-/// What the bar does, too.
+/// The line of a key, and what it does.
+pub fn of((modifiers, key): (Modifiers, Key)) -> Option<(&'static Line, fn(&mut Model))> {
+    let lines = HELP.iter().flat_map(|(_, lines)| *lines);
+    let with =
+        |line: &'static Line| line.actions.iter().map(move |(with, of, run)| ((*with, *of), (line, *run)));
+    lines.flat_map(with).find(|(of, _)| *of == (modifiers, key)).map(|(_, found)| found)
+}
+
+/// What messages do, too.
 pub const OPEN: fn(&mut Model) = |model| model.dialogs.open = Some(OpenDialog::default());
 pub const SAVE: fn(&mut Model) = |model| model.dialogs.save = Some(SaveDialog::new(SaveKind::View));
 pub const COPY_PICTURE: fn(&mut Model) = |model| model.effects.push(Effect::CopyPicture);
@@ -92,6 +100,7 @@ pub const HELP: &[(&str, &[Line])] = &[
         "Compare",
         &[
             line("1 .. 9", "choose the prediction", &[]),
+            line("Shift + 1 .. 9", "make the prediction the ground truth", &[]),
             line(
                 "Ctrl + Up / Down",
                 "previous / next prediction",
@@ -205,7 +214,11 @@ pub const HELP: &[(&str, &[Line])] = &[
                 "save view, renderings, strip or session / copy the view as a picture",
                 &[(COMMAND, Key::S, SAVE), (BOTH, Key::C, COPY_PICTURE)],
             ),
-            line("Ctrl + R", "read all files again", &[(COMMAND, Key::R, opening::reload)]),
+            line(
+                "Ctrl + R",
+                "read all files again; of a data set, those of the material and those that are newer",
+                &[(COMMAND, Key::R, opening::reload)],
+            ),
             line(
                 "Ctrl + W",
                 "close the chosen prediction",

@@ -31,7 +31,9 @@ fn press(ctx: &egui::Context, model: &mut Model, answers: &Answers) {
         (0..presses).for_each(|_| run(model));
     }
     for (slot, key) in (1..).zip(DIGITS) {
-        if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
+        if ctx.input(|input| input.events.iter().any(|event| is_with_shift(event, key))) {
+            opening::make_ground_truth(model, slot);
+        } else if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
             display::choose_slot(model, slot);
         }
     }
@@ -52,6 +54,12 @@ fn press(ctx: &egui::Context, model: &mut Model, answers: &Answers) {
             _ => {}
         }
     }
+}
+
+/// Whether this is the press of a digit with Shift, which has another sign on it in most layouts.
+fn is_with_shift(event: &egui::Event, digit: Key) -> bool {
+    let egui::Event::Key { key, physical_key, pressed: true, modifiers, .. } = event else { return false };
+    modifiers.shift_only() && (*key == digit || *physical_key == Some(digit))
 }
 
 /// Carries out keys, and opens files that were dropped on the window: in place of the built-in materials, otherwise as predictions.

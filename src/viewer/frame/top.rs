@@ -1,16 +1,17 @@
 //! Bar at the top: open, save, layout, map or rendering, exposure, projection, in as many lines as the window needs.
 
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
-use eframe::egui::{self, PopupCloseBehavior, RichText, Role, WidgetInfo};
+use eframe::egui::{self, Key, Modifiers, PopupCloseBehavior, RichText, Role, WidgetInfo};
 use egui_material_icons::icons;
 
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::session::window::SessionDisplay;
 
+use crate::frame::actions::{BOTH, COMMAND, NONE, SHIFT};
 use crate::frame::{actions, menu};
 use crate::jobs::Shown;
+use crate::model::Model;
 use crate::model::view::{AutoExposure, Layout, Projection};
-use crate::model::{Model, display, undo};
 use crate::widgets::number;
 
 /// Height of every control, gap between two of them, and width of the exposure, in points.
@@ -44,123 +45,92 @@ pub fn ui(ui: &mut egui::Ui, shown @ Shown { model, .. }: Shown<'_>, next: &mut 
     });
 }
 
+/// Buttons that do what keys do.
 fn view(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
     let display = &model.view.display;
-    type Edit = fn(&mut Model);
-    let all: [(&str, &str, &str, Option<bool>, Edit); 9] = [
+    for (icon, name, key, on) in [
         (
             icons::ICON_VIEW_IN_AR.codepoint,
             "3D",
-            "The plane seen from the view position, or the flat texture (P)",
+            (NONE, Key::P),
             Some(display.projection == Projection::Perspective),
-            |m| m.view.display.projection = m.view.display.projection.other(),
         ),
-        (
-            icons::ICON_PALETTE.codepoint,
-            "False colour",
-            "Roughness from 0 (black) to 1 (light yellow) (V)",
-            Some(display.false_colour),
-            |m| m.view.display.false_colour ^= true,
-        ),
-        (
-            icons::ICON_SWAP_HORIZ.codepoint,
-            "Swap",
-            "Swap prediction and ground truth (X); hold G to show the ground truth in every pane",
-            Some(model.swapped),
-            |m| m.swapped ^= true,
-        ),
+        (icons::ICON_PALETTE.codepoint, "False colour", (NONE, Key::V), Some(display.false_colour)),
+        (icons::ICON_SWAP_HORIZ.codepoint, "Swap", (NONE, Key::X), Some(model.swapped)),
         (
             icons::ICON_BRIGHTNESS_ALERT.codepoint,
             "Clipped pixels",
-            "Mark clipped pixels: too bright (magenta) or black (blue) (L)",
+            (NONE, Key::L),
             Some(display.show_clipping),
-            |m| m.view.display.show_clipping ^= true,
         ),
-        (icons::ICON_FIT_SCREEN.codepoint, "Fit", "Fit the material into its pane (F)", None, |m| {
-            m.view.fit()
-        }),
-        ("1:1", "One texel per pixel", "One texel per pixel (0)", None, |m| display::magnify(m, 1.0)),
-        (
-            icons::ICON_RESTART_ALT.codepoint,
-            "Reset",
-            "Reset light, view, zoom, exposure and clipping marks (R)",
-            None,
-            display::reset,
-        ),
-        (icons::ICON_UNDO.codepoint, "Undo", "Undo (Ctrl+Z)", None, undo::undo),
-        (icons::ICON_REDO.codepoint, "Redo", "Redo (Ctrl+Shift+Z)", None, undo::redo),
-    ];
-    for (icon, name, hover, on, edit) in all {
-        // Nothing comes and goes in the bar: what has no effect now is disabled.
-        let applies = name != "False colour" || display.quantity == Quantity::Roughness;
-        let response = button(ui, icon, name, applies, on.map(|on| on && applies));
-        if response.on_hover_text(hover).on_disabled_hover_text(hover).clicked() {
-            edit(next);
-        }
+        (icons::ICON_FIT_SCREEN.codepoint, "Fit", (NONE, Key::F), None),
+        ("1:1", "One texel per pixel", (NONE, Key::Num0), None),
+        (icons::ICON_RESTART_ALT.codepoint, "Reset", (NONE, Key::R), None),
+        (icons::ICON_UNDO.codepoint, "Undo", (COMMAND, Key::Z), None),
+        (icons::ICON_REDO.codepoint, "Redo", (BOTH, Key::Z), None),
+    ] {
+        act(ui, next, (icon, name), key, on);
     }
 }
 
-fn layouts(ui: &mut egui::Ui, display: &mut SessionDisplay) {
-    segments(ui, "layout", |ui| {
-        for (layout, icon, hover) in [
-            (
-                Layout::SideBySide,
-                icons::ICON_VIEW_COLUMN_2,
-                "Ground truth and every prediction side by side (C)",
-            ),
-            (
-                Layout::Wipe,
-                icons::ICON_COMPARE,
-                "Ground truth left and chosen prediction right of a line (C)",
-            ),
-            (Layout::Single, icons::ICON_CROP_SQUARE, "The chosen prediction alone (C)"),
-        ] {
-            let on = display.layout == layout;
-            let name = format!("Layout {}", layout.name());
-            let button = button(ui, icon.codepoint, &name, true, Some(on));
-            if button.on_hover_text(hover).clicked() {
-                display.layout = layout;
+/// A button that does what a key does, which its hover text names; `on` as that of a [`button`].
+fn act(
+    ui: &mut egui::Ui,
+    next: &mut Model,
+    (icon, name): (&str, &str),
+    key: (Modifiers, Key),
+    on: Option<bool>,
+) {
+    let Some((line, edit)) = actions::of(key) else { return };
+    let hover = format!("{name}: {} ({})", line.effect, line.keys);
+    // Nothing comes and goes in the bar: what has no effect now is disabled.
+    let applies = name != "False colour" || next.view.display.quantity == Quantity::Roughness;
+    let response = button(ui, icon, name, applies, on.map(|on| on && applies));
+    if response.on_hover_text(&hover).on_disabled_hover_text(hover).clicked() {
+        edit(next);
+    }
+}
+
+/// Buttons of which one is on: each with its text, its name and its value. `hover` tells of one.
+fn choices<T: Copy + PartialEq>(
+    ui: &mut egui::Ui,
+    id: &str,
+    all: impl IntoIterator<Item = (String, String, T)>,
+    chosen: &mut T,
+    hover: impl Fn(&str) -> String,
+) {
+    segments(ui, id, |ui| {
+        for (text, name, value) in all {
+            let button = button(ui, &text, &name, true, Some(*chosen == value));
+            if button.on_hover_text(hover(&name)).clicked() {
+                *chosen = value;
             }
         }
     });
+}
+
+fn layouts(ui: &mut egui::Ui, display: &mut SessionDisplay) {
+    let icons = [icons::ICON_VIEW_COLUMN_2, icons::ICON_COMPARE, icons::ICON_CROP_SQUARE];
+    let all = Layout::ALL.into_iter().zip(icons);
+    let all = all.map(|(one, icon)| (icon.codepoint.to_owned(), format!("Layout {}", one.name()), one));
+    choices(ui, "layout", all, &mut display.layout, |name| format!("{name} (C)"));
 }
 
 fn quantities(ui: &mut egui::Ui, display: &mut SessionDisplay) {
-    segments(ui, "quantity", |ui| {
-        for quantity in Quantity::ALL {
-            let (name, text) = (quantity.name(), letter(quantity));
-            let on = display.quantity == quantity;
-            let button = button(ui, &text, &format!("Show {name}"), true, Some(on));
-            let hover = match quantity {
-                Quantity::Rendering => "Rendering under the light and view (M, Shift+M)".to_owned(),
-                _ => format!("Map of {name} (M, Shift+M)"),
-            };
-            if button.on_hover_text(hover).clicked() {
-                display.quantity = quantity;
-            }
-        }
-    });
+    let all = Quantity::ALL.map(|one| (letter(one), format!("Show {}", one.name()), one));
+    choices(ui, "quantity", all, &mut display.quantity, |name| format!("{name} (M, Shift+M)"));
 }
 
 fn differences(ui: &mut egui::Ui, display: &mut SessionDisplay) {
-    segments(ui, "difference", |ui| {
-        for (difference, name) in [(false, "Value"), (true, "Difference")] {
-            let on = display.difference == difference;
-            let button = button(ui, name, name, true, Some(on));
-            let hover = "Show the value, or the difference of predictions from the ground truth (D)";
-            if button.on_hover_text(hover).clicked() {
-                display.difference = difference;
-            }
-        }
-    });
+    let all =
+        [(false, "Value"), (true, "Difference")].map(|(on, name)| (name.to_owned(), name.to_owned(), on));
+    let hover = "Show the value, or the difference of predictions from the ground truth (D)";
+    choices(ui, "difference", all, &mut display.difference, |_| hover.to_owned());
 }
 
 fn exposure_controls(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
     segments(ui, "exposure", |ui| {
-        let darker = button(ui, "\u{2212}", "Darker", true, None);
-        if darker.on_hover_text("Exposure lower by 0.5 stops (Shift+E)").clicked() {
-            display::step_exposure(next, -0.5);
-        }
+        act(ui, next, ("\u{2212}", "Darker"), (SHIFT, Key::E), None);
         let mut ev = model.view.exposure_ev;
         number(ui, "Exposure", &mut ev, 0.0, |drag| {
             drag.speed(0.05)
@@ -173,31 +143,11 @@ fn exposure_controls(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
         if ev != model.view.exposure_ev {
             next.view.set_exposure(ev);
         }
-        let brighter = button(ui, "+", "Brighter", true, None);
-        if brighter.on_hover_text("Exposure higher by 0.5 stops (E)").clicked() {
-            display::step_exposure(next, 0.5);
-        }
+        act(ui, next, ("+", "Brighter"), (NONE, Key::E), None);
         let now = model.view.display.auto_exposure;
-        for (auto, text, name, hover) in [
-            (
-                AutoExposure::Once,
-                "Auto",
-                "Auto EV",
-                "The brightest 1% of the ground truth just clip: now, and when materials are opened or a scene is \
-                 chosen (N)",
-            ),
-            (
-                AutoExposure::Follow,
-                "Follow",
-                "Exposure follows",
-                "The brightest 1% of the ground truth just clip, under every light and view (Shift+N)",
-            ),
-        ] {
-            let button = button(ui, text, name, true, Some(now == auto));
-            if button.on_hover_text(hover).clicked() {
-                display::choose_exposure(next, auto);
-            }
-        }
+        let follows = AutoExposure::Follow;
+        act(ui, next, ("Auto", "Auto EV"), (NONE, Key::N), Some(now == AutoExposure::Once));
+        act(ui, next, ("Follow", "Exposure follows"), (SHIFT, Key::N), Some(now == follows));
     });
 }
 
@@ -208,32 +158,16 @@ fn window(ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model) {
     let (menu, _) = MenuButton::from_button(face).config(config).ui(ui, |ui| menu::ui(ui, shown, next));
     menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Menu"));
     menu.on_hover_text("Theme, size of text and controls, graphics adapter");
-    let panel = button(ui, icons::ICON_DOCK_TO_LEFT.codepoint, "Panel", true, Some(shown.model.side_panel()));
-    if panel.on_hover_text("Side panel (B)").clicked() {
-        next.toggle_side_panel();
-    }
-    let help = button(ui, icons::ICON_HELP.codepoint, "Help", true, None);
-    if help.on_hover_text("Keys and mouse (?)").clicked() {
-        next.help = true;
-    }
+    let is_open = Some(shown.model.side_panel());
+    act(ui, next, (icons::ICON_DOCK_TO_LEFT.codepoint, "Panel"), (NONE, Key::B), is_open);
+    act(ui, next, (icons::ICON_HELP.codepoint, "Help"), (NONE, Key::F1), None);
 }
 
 /// What opens and saves.
 fn files(ui: &mut egui::Ui, next: &mut Model) {
-    for (icon, name, hover, edit) in [
-        (icons::ICON_FOLDER_OPEN, "Open", "Open materials (Ctrl+O)", actions::OPEN),
-        (icons::ICON_SAVE, "Save", "Save view, renderings, strip or session (Ctrl+S)", actions::SAVE),
-        (
-            icons::ICON_CONTENT_COPY,
-            "Copy",
-            "Copy the view as a picture (Ctrl+Shift+C)",
-            actions::COPY_PICTURE,
-        ),
-    ] {
-        if button(ui, icon.codepoint, name, true, None).on_hover_text(hover).clicked() {
-            edit(next);
-        }
-    }
+    act(ui, next, (icons::ICON_FOLDER_OPEN.codepoint, "Open"), (COMMAND, Key::O), None);
+    act(ui, next, (icons::ICON_SAVE.codepoint, "Save"), (COMMAND, Key::S), None);
+    act(ui, next, (icons::ICON_CONTENT_COPY.codepoint, "Copy"), (BOTH, Key::C), None);
 }
 
 /// The name of a quantity in the bar: maps by their first letters.

@@ -101,6 +101,13 @@ pub fn reopen(model: &mut Model, index: usize) {
     }
 }
 
+/// Makes the material at `index` the ground truth of the others. The methods of a data set have its own.
+pub fn make_ground_truth(model: &mut Model, index: usize) {
+    if model.dataset.open.is_none() {
+        model.materials.make_ground_truth(index);
+    }
+}
+
 /// Compares renderings with the photograph at this path, under the light and view of the window; or with the first of those that a
 /// folder or a JSON file lists, under its own.
 pub fn open_photograph(model: &mut Model, path: PathBuf) {
