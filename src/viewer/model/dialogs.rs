@@ -141,54 +141,56 @@ impl SaveKind {
 
     /// The label of its button.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::View => "View",
-            Self::Renderings => "Renderings",
-            Self::Strip => "Strip",
-            Self::Session => "Session",
-            Self::Scenes => "Scenes",
-            Self::Materials => "List",
-        }
-    }
-
-    /// What the file holds.
-    pub fn explanation(self) -> &'static str {
-        match self {
-            Self::View => {
-                "The panes and the legend as they are seen, with light, view, exposure and convention in the file's \
-                 metadata."
-            }
-            Self::Renderings => {
-                "The rendering, map or difference that is selected, of every material side by side, one pixel per texel; \
-                 the same as `svbrdf render` writes. PNG as displayed, EXR as linear floats."
-            }
-            Self::Strip => {
-                "A labelled figure: a row per material; all maps, the rendering and its difference in columns; a rectangle \
-                 (Q) framed and magnified; the same as `svbrdf strip` writes."
-            }
-            Self::Session => {
-                "Paths of the files (relative to this one), assumptions, scene, display and loss settings. `svbrdf` opens \
-                 it, and so does Open; `svbrdf report` makes a page of it."
-            }
-            Self::Scenes => {
-                "The scenes that the tab Why lists for the chosen prediction, worst first, with their losses. Open takes \
-                 them as the scenes of the loss, and so does --scenes of `svbrdf`."
-            }
-            Self::Materials => {
-                "The materials that are listed, in their order, as CSV: mark, note and the loss of each method."
-            }
-        }
+        self.texts()[0]
     }
 
     /// The name that the dialog proposes.
     pub fn proposal(self) -> &'static str {
+        self.texts()[1]
+    }
+
+    /// What the file holds.
+    pub fn explanation(self) -> &'static str {
+        self.texts()[2]
+    }
+
+    fn texts(self) -> [&'static str; 3] {
         match self {
-            Self::View => "svbrdf-view.png",
-            Self::Renderings => "svbrdf-renderings.png",
-            Self::Strip => "svbrdf-strip.png",
-            Self::Session => "comparison.svbrdf-session.json",
-            Self::Scenes => "scenes.json",
-            Self::Materials => "materials.csv",
+            Self::View => [
+                "View",
+                "svbrdf-view.png",
+                "The panes and the legend as they are seen, with light, view, exposure and convention in the file's \
+                 metadata.",
+            ],
+            Self::Renderings => [
+                "Renderings",
+                "svbrdf-renderings.png",
+                "The rendering, map or difference that is selected, of every material side by side, one pixel per texel; \
+                 the same as `svbrdf render` writes. PNG as displayed, EXR as linear floats.",
+            ],
+            Self::Strip => [
+                "Strip",
+                "svbrdf-strip.png",
+                "A labelled figure: a row per material; all maps, the rendering and its difference in columns; a rectangle \
+                 (Q) framed and magnified; the same as `svbrdf strip` writes.",
+            ],
+            Self::Session => [
+                "Session",
+                "comparison.svbrdf-session.json",
+                "Paths of the files (relative to this one), assumptions, scene, display and loss settings. `svbrdf` opens \
+                 it, and so does Open; `svbrdf report` makes a page of it.",
+            ],
+            Self::Scenes => [
+                "Scenes",
+                "scenes.json",
+                "The scenes that the tab Why lists for the chosen prediction, worst first, with their losses. Open takes \
+                 them as the scenes of the loss, and so does --scenes of `svbrdf`.",
+            ],
+            Self::Materials => [
+                "List",
+                "materials.csv",
+                "The materials that are listed, in their order, as CSV: mark, note and the loss of each method.",
+            ],
         }
     }
 }

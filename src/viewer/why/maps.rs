@@ -20,11 +20,8 @@ use crate::widgets::{state_line, theme};
 
 /// Half of the 95% interval of a loss that is attributed, as a share of the loss.
 const ATTRIBUTION_TARGET: f64 = 0.01;
-/// Most predictions that have numbers in every row.
-const WITH_NUMBERS: usize = 4;
-/// Heights of rows with and without numbers, in points.
+/// Height of a row, in points.
 const ROW: f32 = 18.0;
-const LOW: f32 = 8.0;
 /// Widths of the name of a map, of the number of a prediction and of its amounts, in points.
 const NAME: f32 = 72.0;
 const NUMBER: f32 = 16.0;
@@ -132,9 +129,7 @@ struct MapRow<'a> {
 
 impl MapRow<'_> {
     fn ui(&self, ui: &mut egui::Ui, isolated: bool, only_right: bool) -> egui::Response {
-        let has_numbers = self.is_chosen || self.count <= WITH_NUMBERS;
-        let height = if has_numbers { ROW } else { LOW };
-        let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
+        let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
         let share = self.attributed.map(|attributed| attributed.of(self.map));
         let text = self.attributed.map_or_else(String::new, |attributed| percent(attributed, self.map));
         let of = if self.is_chosen { String::new() } else { format!(" of {}", self.name) };
@@ -162,15 +157,13 @@ impl MapRow<'_> {
         if let Some(share) = share {
             self.bar(ui, bars, share);
         }
-        if has_numbers {
-            if self.count > 1 {
-                let at = pos2(row.left() + 4.0, middle);
-                painter.text(at, Align2::LEFT_CENTER, self.slot.to_string(), font.clone(), ink);
-            }
-            let value = share.map_or_else(|| "...".to_owned(), |share| format!("{:.4}", share.shapley.mean));
-            painter.text(pos2(area.right() - 4.0, middle), Align2::RIGHT_CENTER, value, font.clone(), ink);
-            painter.text(pos2(area.right() - 64.0, middle), Align2::RIGHT_CENTER, text, font, ink);
+        if self.count > 1 {
+            let at = pos2(row.left() + 4.0, middle);
+            painter.text(at, Align2::LEFT_CENTER, self.slot.to_string(), font.clone(), ink);
         }
+        let value = share.map_or_else(|| "...".to_owned(), |share| format!("{:.4}", share.shapley.mean));
+        painter.text(pos2(area.right() - 4.0, middle), Align2::RIGHT_CENTER, value, font.clone(), ink);
+        painter.text(pos2(area.right() - 64.0, middle), Align2::RIGHT_CENTER, text, font, ink);
         let side = if only_right { "right" } else { "wrong" };
         let map = self.map.name();
         response.on_hover_ui(|ui| {
@@ -189,7 +182,7 @@ impl MapRow<'_> {
         let [low, high] = self.axis;
         let x = |value: f64| area.left() + area.width() * ((value - low) / (high - low)) as f32;
         let (zero, end, middle) = (x(0.0), x(share.shapley.mean), area.center().y);
-        let half = (0.5 * area.height() - 1.0).min(4.0);
+        let half = 4.0;
         let bar = Rect::from_x_y_ranges(zero.min(end)..=zero.max(end), middle - half..=middle + half);
         let painter = ui.painter();
         painter.rect_filled(bar, 1.0, theme::series(self.slot, ui.visuals().dark_mode));

@@ -2,8 +2,7 @@
 
 use eframe::egui::{Color32, ColorImage};
 
-use svbrdf_core::error::Error as CoreError;
-use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::difference_to_display;
@@ -44,7 +43,7 @@ pub fn make(
     scenes: &[Scene],
     progress: &Progress,
 ) -> Result<Thumbnails, Error> {
-    let materials = [reduced(ground_truth)?, reduced(prediction)?];
+    let materials = [reduced(ground_truth), reduced(prediction)];
     progress.begin(scenes.len() as u64);
     let mut pixels = Vec::new();
     for scene in scenes {
@@ -77,22 +76,12 @@ fn log_differences(
 }
 
 /// Every n-th texel of a large material along both sides, so that fewer than [`LARGE`] are left; a smaller material itself.
-fn reduced(material: &Material<f32>) -> Result<Material<f32>, CoreError> {
+fn reduced(material: &Material<f32>) -> Material<f32> {
     let [width, height] = material.size();
     let stride = width.max(height).div_ceil(LARGE);
-    let sides = [width, height].map(|side| side.div_ceil(stride));
-    let plane = |plane: &Vec<f32>| {
-        let rows = plane.chunks(width).step_by(stride);
-        rows.flat_map(|row| row.iter().copied().step_by(stride)).collect()
-    };
-    let Planes { normal, diffuse, specular, roughness } = material.planes();
-    let planes = Planes {
-        normal: normal.each_ref().map(plane),
-        diffuse: diffuse.each_ref().map(plane),
-        specular: specular.each_ref().map(plane),
-        roughness: plane(roughness),
-    };
-    Material::new(material.name(), sides[0], sides[1], planes)
+    let row = |y: usize| (0..width).step_by(stride).map(move |x| y * width + x);
+    let texels: Vec<usize> = (0..height).step_by(stride).flat_map(row).collect();
+    material.gathered(&texels, [width, height].map(|side| side.div_ceil(stride)))
 }
 
 /// The means of `values` under each of the pixels of a thumbnail, which is as wide as high.
@@ -129,9 +118,9 @@ mod tests {
     #[test]
     fn large_materials_are_reduced_and_small_ones_are_not() {
         let material = samples::load::<f32>().unwrap().ground_truth.material;
-        assert_eq!(reduced(&material).unwrap(), material);
+        assert_eq!(reduced(&material), material);
         let large = material.clone().resized([1300, 700]).unwrap();
-        let small = reduced(&large).unwrap();
+        let small = reduced(&large);
         assert_eq!(small.size(), [434, 234]);
         assert_eq!(small.planes().roughness[434 + 2], large.planes().roughness[3 * 1300 + 6]);
     }
