@@ -5,6 +5,8 @@ pub mod numbers;
 pub mod paint;
 pub mod theme;
 
+use std::ops::Range;
+
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{self, DragValue, Response, RichText};
 
@@ -152,20 +154,33 @@ pub fn fixed<R>(ui: &mut egui::Ui, contents: impl FnOnce(&mut egui::Ui) -> R) ->
     contents(&mut child)
 }
 
-/// The table of a report, which scrolls sideways.
+/// Height of a row of a report, in points, whatever letters it has.
+const ROW: f32 = 18.0;
+
+/// The table of a report: the names of its rows stay, and the other columns scroll sideways where there is no room for them.
 pub fn report_table(ui: &mut egui::Ui, table: &Table) {
-    egui::ScrollArea::horizontal().id_salt("table").show(ui, |ui| {
-        egui::Grid::new("table").striped(true).spacing([8.0, 2.0]).min_row_height(0.0).show(ui, |ui| {
-            for (column, title) in table.columns.iter().enumerate() {
-                let below = table.rows.iter().find_map(|row| row.get(column));
-                aligned(ui, below, RichText::new(drawable(title)).small().strong());
-            }
-            ui.end_row();
-            for row in &table.rows {
-                row.iter().for_each(|cell| value(ui, cell));
-                ui.end_row();
-            }
+    ui.horizontal_top(|ui| {
+        ui.vertical(|ui| {
+            ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
+            columns(ui, table, 0..1, 0.4 * ui.available_width());
         });
+        let scroll = egui::ScrollArea::horizontal().id_salt("table");
+        scroll.show(ui, |ui| columns(ui, table, 1..table.columns.len(), f32::INFINITY));
+    });
+}
+
+fn columns(ui: &mut egui::Ui, table: &Table, range: Range<usize>, most: f32) {
+    let grid = egui::Grid::new(("table", range.start)).striped(true).spacing([8.0, 0.0]);
+    grid.min_row_height(ROW).max_col_width(most).show(ui, |ui| {
+        for (column, title) in table.columns.iter().enumerate().take(range.end).skip(range.start) {
+            let below = table.rows.iter().find_map(|row| row.get(column));
+            aligned(ui, below, RichText::new(drawable(title)).small().strong());
+        }
+        ui.end_row();
+        for row in &table.rows {
+            row.get(range.clone()).unwrap_or_default().iter().for_each(|cell| value(ui, cell));
+            ui.end_row();
+        }
     });
 }
 
