@@ -6,6 +6,9 @@ use std::collections::BTreeSet;
 use svbrdf_files::read::Albedo;
 use svbrdf_files::source::MaterialSource;
 
+use svbrdf_core::model::convention::Convention;
+use svbrdf_viewer::model::inspection;
+
 use super::*;
 
 /// Views that are tried on a screen of each scale.
@@ -225,6 +228,45 @@ fn the_key_pins_a_texel_whose_numbers_are_in_the_drawer_and_again_removes_it() {
     assert_eq!(texel_read(&window), Some(first));
     press(&mut window, egui::Key::I);
     assert!(window.query_by_label("Pinned texels").is_none());
+}
+
+/// The status line, the numbers on texels and pins tell of one texel the same, in every convention and from every side.
+#[needs(adapter)]
+fn the_status_line_and_a_pin_have_the_same_numbers() {
+    let mut window = built_in();
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    for named in svbrdf_core::model::named_conventions::all() {
+        let Ok(convention) = Convention::try_from(named) else { continue };
+        edit(&mut window, |model| model.use_convention(convention.into()));
+        let has_log = convention.norm() == PRINTED.norm();
+        for _ in 0..6 {
+            let texel = [below(&mut random, 256), below(&mut random, 256)];
+            let view = [unit(&mut random) - 0.5, unit(&mut random) - 0.5, 1.5].map(f64::from);
+            edit(&mut window, |model| {
+                model.view.scene.view = view;
+                model.view.display.difference = false;
+            });
+            let displayed = window.state().parts.displayed();
+            let (scene, named) = (window.scene(), convention.name);
+            let pinned = inspection::rows(window.materials(), texel, &scene, &convention);
+            for (index, pin) in pinned.iter().enumerate() {
+                let told = svbrdf_viewer::pane::numbers(&displayed, index, false, texel);
+                for (told, pin) in told.iter().zip(pin.terms.radiance) {
+                    assert!(
+                        (told - pin).abs() <= 1e-4 * pin.abs().max(1e-4),
+                        "{named} {texel:?}: {told} {pin}"
+                    );
+                }
+                let told = svbrdf_viewer::pane::numbers(&displayed, index, true, texel);
+                let Some([_, pin]) = pin.errors.filter(|_| has_log) else { continue };
+                assert!(
+                    (told[0] - pin).abs() <= 1e-3 * pin.max(1e-3),
+                    "{named} {texel:?}: {} {pin}",
+                    told[0]
+                );
+            }
+        }
+    }
 }
 
 #[needs(adapter)]

@@ -12,7 +12,7 @@ use crate::pane::Displayed;
 use crate::pane::placed::TITLE;
 use crate::pane::scenery::{PaneContent, PhotographUse};
 use crate::widgets::names::{FEWEST, fitted};
-use crate::widgets::numbers::significant;
+use crate::widgets::numbers::means;
 use crate::widgets::paint::inset;
 use crate::widgets::theme;
 
@@ -53,11 +53,10 @@ pub fn title_bar(
         ui.visuals().text_color()
     };
     let slot = prediction.map(|_| shown.materials()[content.index].slot);
-    let swatch = slot.map(|slot| theme::series(slot, ui.visuals().dark_mode));
-    let left = if swatch.is_some() { 8.0 + SWATCH } else { 8.0 };
-    let middle = rect.left_center() + vec2(8.0 + 4.0, 0.0);
-    let mark = Rect::from_center_size(middle, vec2(8.0, 8.0));
-    painter.rect_filled(mark, 0.0, swatch.unwrap_or(egui::Color32::TRANSPARENT));
+    let left = if slot.is_some() { 8.0 + SWATCH } else { 8.0 };
+    if let Some(slot) = slot {
+        painter.rect_filled(swatch(rect), 0.0, theme::series(slot, ui.visuals().dark_mode));
+    }
     let weak = ui.visuals().weak_text_color();
     let loss = loss.map(|loss| painter.layout_no_wrap(loss, FontId::monospace(12.0), weak));
     let button = if has_button { BACK } else { 0.0 };
@@ -99,15 +98,21 @@ fn back_button(ui: &mut egui::Ui, shown: &Displayed<'_>, place: Rect) -> egui::R
     button.on_hover_text("Show the prediction itself again (Esc)")
 }
 
+/// Where the colour of a prediction is in its title.
+fn swatch(title: Rect) -> Rect {
+    Rect::from_center_size(title.left_center() + vec2(12.0, 0.0), vec2(8.0, 8.0))
+}
+
 /// The pane of a prediction that is not there, with the reason.
 pub fn empty_pane(ui: &mut egui::Ui, shown: &Displayed<'_>, missing: &Missing, cell: Rect) {
     let (title, picture) = cell.split_top_bottom_at_y(cell.top() + TITLE);
     let (colour, problem) = (theme::series(missing.slot, ui.visuals().dark_mode), drawable(&missing.problem));
     ui.painter().rect_filled(picture, 0.0, theme::surround(shown.model.settings.dark));
-    let room = inset(title, vec2(8.0, 0.0));
+    ui.painter().rect_filled(swatch(title), 0.0, colour);
+    let room = inset(title, vec2(8.0, 0.0)).with_min_x(title.left() + 8.0 + SWATCH);
     ui.scope_builder(egui::UiBuilder::new().max_rect(room), |ui| {
         let name = format!("{}  {}", missing.slot, drawable(&missing.name));
-        ui.add(egui::Label::new(egui::RichText::new(name).size(13.5).color(colour)).truncate());
+        ui.add(egui::Label::new(egui::RichText::new(name).size(13.5)).truncate());
     });
     let room = inset(picture, vec2(12.0, 12.0));
     ui.scope_builder(egui::UiBuilder::new().max_rect(room), |ui| ui.label(problem));
@@ -131,8 +136,9 @@ fn loss_of(shown: &Displayed<'_>, prediction: usize, title: Rect) -> Option<Stri
     let model = shown.model;
     // The panel has the loss of a single prediction.
     let is_repeated = model.dataset.open.is_none() && model.materials.all.len() == 2 && model.side_panel();
-    let loss = shown.losses.get(prediction)?.as_ref().filter(|_| title.width() >= LEAST && !is_repeated)?;
-    Some(format!("loss {}", significant(loss)[0]))
+    shown.losses.get(prediction)?.as_ref().filter(|_| title.width() >= LEAST && !is_repeated)?;
+    let place = shown.losses[..prediction].iter().flatten().count();
+    Some(format!("loss {}", means(&shown.losses.iter().flatten().collect::<Vec<_>>()).get(place)?))
 }
 
 /// The names, of at most `most` characters each, and the quantity of differences where there is room for it.

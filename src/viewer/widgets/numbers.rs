@@ -50,20 +50,27 @@ pub fn significant(estimate: &Estimate) -> [String; 2] {
     [format!("{mean:.decimals$}"), format!("[{low:.more$}, {high:.more$}]")]
 }
 
-/// The means of neighbours, as [`significant`], with as many digits more as tell them apart, at most six decimals.
+/// The means of estimates beside each other, as [`significant`] and [`apart`].
 pub fn means(estimates: &[&Estimate]) -> Vec<String> {
-    let mut texts: Vec<String> = estimates.iter().map(|one| significant(one)[0].clone()).collect();
-    for (place, pair) in estimates.windows(2).enumerate() {
-        let [a, b] = [pair[0].mean, pair[1].mean];
-        let apart = (3..=6).map(|decimals| [a, b].map(|mean| format!("{mean:.decimals$}")));
-        if a != b
-            && texts[place] == texts[place + 1]
-            && let Some([first, second]) = apart.into_iter().find(|[first, second]| first != second)
-        {
-            (texts[place], texts[place + 1]) = (first, second);
-        }
-    }
-    texts
+    let means: Vec<f64> = estimates.iter().map(|one| one.mean).collect();
+    apart(&means, estimates.iter().map(|one| significant(one)[0].clone()).collect())
+}
+
+/// The texts of these values. Where values that differ have one text, each has as many digits more as tell it from these, at most six
+/// decimals.
+pub fn apart(values: &[f64], texts: Vec<String>) -> Vec<String> {
+    let longer = |(value, text): (&f64, &String)| {
+        let with = |value: f64, more: usize| match value.abs() {
+            v if v > 0.0 && v < TINY => format!("{value:.more$e}"),
+            _ => format!("{value:.0$}", more + 2),
+        };
+        let is_like = |(other, its): &(&f64, &String)| *its == text && *other != value;
+        let alike: Vec<f64> = values.iter().zip(&texts).filter(is_like).map(|(other, _)| *other).collect();
+        let is_apart = |more: &usize| alike.iter().all(|other| with(*other, *more) != with(*value, *more));
+        let more = (1..=4).find(is_apart).filter(|_| !alike.is_empty());
+        more.map_or_else(|| text.clone(), |more| with(*value, more))
+    };
+    values.iter().zip(&texts).map(longer).collect()
 }
 
 /// Half the width of an interval, in two significant digits: what follows the sign ±.
@@ -160,8 +167,12 @@ mod tests {
     #[test]
     fn means_that_look_alike_have_the_digits_that_tell_them_apart() {
         let of = |mean| Estimate { mean, standard_error: None, interval95: Some([mean - 0.01, mean + 0.01]) };
-        let all = [of(0.2301), of(0.2304), of(0.25), of(0.25)];
-        assert_eq!(means(&all.each_ref()), ["0.2301", "0.2304", "0.250", "0.250"]);
+        // Whichever others are between them.
+        let all = [of(0.2301), of(0.25), of(0.2303), of(0.2304), of(0.25), of(0.230_44)];
+        let texts = ["0.2301", "0.250", "0.2303", "0.23040", "0.250", "0.23044"];
+        assert_eq!(means(&all.each_ref()), texts);
+        let tiny = [2.51e-5, 2.54e-5, 0.0];
+        assert_eq!(apart(&tiny, tiny.map(digits).to_vec()), ["2.51e-5", "2.54e-5", "0.0000"]);
     }
 
     #[test]
