@@ -1,10 +1,13 @@
 //! Data set: the table of its materials and methods, its losses, and the material in the window.
 
 pub mod cases;
+pub mod cells;
+pub mod heads;
 pub mod losses;
 pub mod matrix;
 pub mod opening;
 pub mod pictures;
+pub mod places;
 pub mod summary;
 pub mod table;
 
@@ -12,8 +15,7 @@ use eframe::egui;
 
 use crate::dataset::matrix::Matrix;
 use crate::dataset::pictures::MatrixCell;
-pub use crate::dataset::table::DatasetUi;
-use crate::dataset::table::MatrixTable;
+use crate::dataset::places::{DatasetUi, MatrixTable};
 use crate::jobs::{Jobs, Shown};
 use crate::model::Model;
 use crate::widgets::bare;

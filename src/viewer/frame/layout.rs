@@ -5,7 +5,7 @@
 
 use eframe::egui;
 
-use crate::dataset::{self, DatasetUi};
+use crate::dataset::{self, places::DatasetUi};
 use crate::error::Error;
 use crate::files;
 use crate::frame::content::{self, CAPTION};

@@ -122,3 +122,75 @@ fn the_table_sorts_by_its_heads_and_has_one_range() {
     edit(&mut window, |model| model.view.display.difference = false);
     wait_in(&mut window, "the values", |window| range(window).is_none());
 }
+
+/// The head of a method.
+fn head_of(window: &Window<'_>, method: &str) -> String {
+    window.get_by_label_contains(&format!("Sort by {method}")).accesskit_node().label().unwrap_or_default()
+}
+
+#[needs(adapter)]
+fn methods_with_one_mean_have_one_rank() {
+    let folder = tempfile::tempdir().unwrap();
+    let all = folders(folder.path());
+    // A copy of a method, and one that is worse on every material that it has.
+    let [twin, worse] = ["twin", "worse"].map(|name| folder.path().join(name));
+    [&twin, &worse].into_iter().for_each(|folder| std::fs::create_dir(folder).unwrap());
+    for name in ["a", "b", "c", "d", "e", "f"].map(|name| format!("{name}.png")) {
+        std::fs::copy(all[1].join(&name), twin.join(&name)).unwrap();
+        write(&worse.join(&name), if name == "e.png" { 24 } else { 16 }, 60);
+    }
+    let methods = vec![(None, worse), (None, all[1].clone()), (None, twin)];
+    let source = Source::folders(all[0].clone(), methods);
+    let request = Request::Accuracy { target: 0.02, seed: 0 };
+    let mut window = on_table(&OpenDataset::new(source, DatasetReading::default(), request, None).unwrap());
+    wait(&mut window, "the summary", |app| {
+        summary::drawn(app.shown()).is_some_and(|report| report.results.len() == 6)
+    });
+    for (method, rank) in [("ours", 1), ("twin", 1), ("worse", 3)] {
+        let head = head_of(&window, method);
+        assert!(head.contains(&format!("rank {rank}")), "{head}");
+    }
+}
+
+/// What is written while the table is displayed is marked in its row, and read again with its losses.
+#[needs(adapter)]
+fn a_row_whose_files_are_newer_is_marked_and_read_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let all = folders(folder.path());
+    let mut window = on_table(&dataset(all.clone(), None));
+    edit(&mut window, |model| model.dataset.table.cell = Some(64.0));
+    wait_in(&mut window, "the cells", |window| {
+        pictures_of(window).is_some_and(|pictures| pictures.part(MatrixCell { case: 4, column: 1 }).is_some())
+    });
+    let before = loss(&window, 4, 0).unwrap();
+    assert_eq!(window.names()[0], "a", "another material is in the window");
+    std::thread::sleep(std::time::Duration::from_millis(1100));
+    std::fs::copy(all[0].join("e.png"), all[1].join("e.png")).unwrap();
+    wait(&mut window, "the mark", |app| app.parts.model.dataset.newer.contains(&4));
+    assert_eq!((loss(&window, 4, 0), window.model().dataset.newer.len()), (Some(before), 1));
+    window.key_press_modifiers(Modifiers::COMMAND, egui::Key::R);
+    wait(&mut window, "its loss", |app| loss(app, 4, 0).is_some_and(|now| now.loss == 0.0));
+    assert!(window.model().dataset.newer.is_empty());
+}
+
+/// A name of a method stays beside its numbers, and the reason of a failed cell is told whole.
+#[needs(adapter)]
+fn names_stay_as_numbers_scroll_and_a_failed_cell_tells_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = on_table(&dataset(folders(folder.path()), None));
+    tab(&mut window, "Methods");
+    wait(&mut window, "the summary", |app| summary::drawn(app.shown()).is_some());
+    window.run_steps(3);
+    let left = |window: &Window<'_>, label: &str| window.get_by_label(label).rect().left();
+    let before = ["method", "median"].map(|label| left(&window, label));
+    let over = window.get_by_label("mean loss").rect().center();
+    hover(&mut window, over);
+    window.event(wheel(vec2(-120.0, 0.0), egui::MouseWheelUnit::Point, Modifiers::NONE));
+    rest(&mut window, 12);
+    assert_eq!(left(&window, "method"), before[0]);
+    assert!(left(&window, "median") < before[1] - 50.0, "{} was {}", left(&window, "median"), before[1]);
+    let failed = window.get_by_label("Cell c, theirs").rect().center();
+    hover(&mut window, failed);
+    rest(&mut window, 60);
+    assert!(window.query_all_by_label_contains("theirs/c.png").next().is_some());
+}
