@@ -51,6 +51,14 @@ impl Registration {
         Ok([truth.gathered(&texels, size), prediction])
     }
 
+    /// The part of a ground truth that is compared, as shares of its width and height: least and greatest; by the sizes of the ground truth
+    /// and the prediction.
+    pub fn part(self, sizes: [[usize; 2]; 2]) -> [[f32; 2]; 2] {
+        let Place { whole, at, size, .. } = self.place(sizes);
+        [[0; 2], size]
+            .map(|corner| [0, 1].map(|axis| (at[axis] + corner[axis]) as f32 / whole[axis].max(1) as f32))
+    }
+
     /// The part of the mask of a ground truth that a prediction of this size is compared with; `None` where it keeps no texel.
     pub fn of_mask(self, mask: &Mask, prediction: [usize; 2]) -> Option<Mask> {
         let Place { whole, at, size, .. } = self.place([mask.size(), prediction]);
@@ -73,6 +81,27 @@ impl Registration {
         };
         Place { whole, at, size, kernel }
     }
+}
+
+/// A material in one size with others, or why there is none; `None` where it stays as it is.
+pub type InOneSize<T> = Option<Result<Material<T>, Error>>;
+
+/// A ground truth and its predictions, each with how it is registered, in the size of the first one whose registration is known and
+/// that has another size than the ground truth; `None` without one.
+pub fn in_one_size<T: Real>(
+    truth: &Material<T>,
+    predictions: &[(Option<&Material<T>>, Option<Registration>)],
+) -> Option<(Material<T>, Vec<InOneSize<T>>)> {
+    let is_other = |one: &&Material<T>| one.size() != truth.size();
+    let (way, sample) = predictions.iter().find_map(|(one, way)| Some(((*way)?, one.filter(is_other)?)))?;
+    let part = |whole: &Material<T>| way.applied([whole, sample]).map(|[part, _]| part);
+    let of = |(one, its): &(Option<&Material<T>>, Option<Registration>)| match one.filter(is_other) {
+        None => one.map(part),
+        Some(other) => {
+            (*its == Some(way)).then(|| way.applied([truth, other]).map(|[_, prediction]| prediction))
+        }
+    };
+    Some((part(truth).ok()?, predictions.iter().map(of).collect()))
 }
 
 /// The place of a prediction on its ground truth.

@@ -5,6 +5,7 @@ use std::thread;
 
 use svbrdf_core::loss::check_same_size;
 use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::registration::in_one_size;
 use svbrdf_gpu::Gpu;
 
 use crate::error::Error;
@@ -147,27 +148,15 @@ impl AskCase {
         places: &[(usize, usize)],
         columns: &mut [Column],
     ) -> Option<Arc<ReadMaterial>> {
-        let of = |place: &(usize, usize)| {
-            self.open.reading.registrations.get(self.open.methods().get(place.1.checked_sub(1)?)?).copied()
-        };
-        let size = truth.material().size();
-        let sample = |(place, one): (&(usize, usize), &Column)| {
-            let read = one.as_ref().ok().filter(|read| read.material().size() != size)?;
-            Some((of(place)?, read.clone()))
-        };
-        let (registration, sample) = places.iter().zip(&*columns).find_map(sample)?;
-        let part = |whole: &ReadMaterial| registration.applied([whole.material(), sample.material()]);
+        let of =
+            |(place, one): (&(usize, usize), &Column)| (one.clone().ok(), self.open.registration(place.1));
+        let all: Vec<_> = places.iter().zip(&*columns).map(of).collect();
+        let all: Vec<_> =
+            all.iter().map(|(one, way)| (one.as_ref().map(|one| one.material()), *way)).collect();
+        let (cut, changed) = in_one_size(truth.material(), &all)?;
         let gpu = self.given.0.0.as_ref();
-        let [cut, _] = part(truth).ok()?;
-        for (place, one) in places.iter().zip(columns) {
-            let Ok(read) = one else { continue };
-            let material = if read.material().size() == size {
-                part(read).map(|[cut, _]| cut)
-            } else if of(place) == Some(registration) {
-                registration.applied([truth.material(), read.material()]).map(|[_, prediction]| prediction)
-            } else {
-                continue;
-            };
+        for (one, changed) in columns.iter_mut().zip(changed) {
+            let (Ok(read), Some(material)) = (&*one, changed) else { continue };
             let present = material.map(|material| Arc::new(read.part(material, gpu)));
             *one = present.map_err(|problem| problem.to_string());
         }

@@ -15,7 +15,7 @@ use crate::dataset::matrix::texts;
 use crate::dataset::pictures::{CellPictures, MatrixCell, ReadCells};
 use crate::dataset::places::{GAP, MatrixTable, NUMBER, Places};
 use crate::jobs::answers::Answered;
-use crate::model::material::loaded::drawable;
+use crate::model::material::loaded::{NEWER, drawable};
 use crate::model::{Model, display, endpoint};
 use crate::widgets::theme;
 
@@ -33,7 +33,7 @@ impl Drawn {
     /// Why there is no material in a cell.
     fn problem(&self, cell: MatrixCell) -> Option<&str> {
         let (_, row) = self.rows.iter().find(|(case, _)| *case == cell.case)?;
-        row.get(cell.column)?.as_ref().err().map(String::as_str)
+        row.cells.get(cell.column)?.as_ref().err().map(String::as_str)
     }
 }
 
@@ -114,7 +114,8 @@ impl MatrixTable<'_> {
             let below = at + vec2(0.0, galley.size().y + 2.0);
             painter.galley(at, galley, visuals.text_color());
             let cause = self.matrix.losses.cause(case).unwrap_or_default();
-            let more = [drawable(&mark.note), cause].into_iter().filter(|text| !text.is_empty());
+            let newer = if dataset.newer.contains(&case) { NEWER } else { "" }.to_owned();
+            let more = [newer, drawable(&mark.note), cause].into_iter().filter(|text| !text.is_empty());
             let (more, ink) = (more.collect::<Vec<_>>().join("\n"), visuals.text_color());
             painter.galley(below, painter.layout(more, FontId::proportional(11.0), ink, width), ink);
         }

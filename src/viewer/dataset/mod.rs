@@ -40,7 +40,7 @@ impl DatasetUi {
         let Some(matrix) = &Matrix::ask(shown) else { return false };
         let (dataset, has_pictures) = (&shown.model.dataset, shown.model.dataset.table.has_pictures);
         dataset.in_sight.set(&[dataset.wanted]);
-        self.hovered = None;
+        (self.hovered, self.rows) = (None, Vec::new());
         let mut table = MatrixTable { matrix, state: self, textures, has_pictures };
         if has_pictures {
             table.ui(ui, next);

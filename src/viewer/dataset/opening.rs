@@ -32,8 +32,9 @@ pub fn open(jobs: &mut Jobs, paths: Vec<PathBuf>) {
 
 /// Matches the materials of a session, as [`DatasetState::of_session`].
 pub fn restore(jobs: &mut Jobs, session: SessionDataset, results: Option<PathBuf>, strict: bool) {
-    let job =
-        Job::start(&jobs.waker, move |_| Ok(opened(DatasetState::of_session(session, results, strict)?)));
+    let job = Job::start(&jobs.waker, move |progress| {
+        Ok(opened(DatasetState::of_session(session, results, strict, progress)?))
+    });
     jobs.edits.insert("dataset", job);
 }
 

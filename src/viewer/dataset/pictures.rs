@@ -10,17 +10,20 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::registration::in_one_size;
+use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::read::Read;
 
 use crate::error::Error;
 use crate::jobs::Shown;
 use crate::jobs::answers::{Answered, Pace, Question, Work};
+use crate::jobs::watch::Files;
 use crate::model::dataset::OpenDataset;
 use crate::model::view::ViewState;
 use crate::widgets::paint::Atlas;
 
 /// A material in sight, and what was read of it.
-pub type ReadCells = (usize, Arc<Answered<Vec<Reduced>>>);
+pub type ReadCells = (usize, Arc<Answered<ReducedRow>>);
 
 /// The pictures of cells under a light and view.
 #[derive(Clone, Debug)]
@@ -120,10 +123,10 @@ impl DrawCells {
         (case, row): &ReadCells,
         progress: &Progress,
     ) -> Result<Vec<(MatrixCell, Pictures)>, Error> {
-        let Some(Ok(truth)) = row.first() else { return Ok(Vec::new()) };
+        let Some(Ok(truth)) = row.cells.first() else { return Ok(Vec::new()) };
         let value = PictureContent { difference: None, ..self.content };
         let mut all = Vec::new();
-        for (column, material) in row.iter().enumerate() {
+        for (column, material) in row.cells.iter().enumerate() {
             let Ok(material) = material else { continue };
             let is_compared = column > 0 && self.content.difference.is_some();
             let (content, materials) = match is_compared {
@@ -152,6 +155,13 @@ pub struct MatrixCell {
 /// A small material, or why there is none.
 pub type Reduced = Result<Arc<Material<f32>>, String>;
 
+/// The ground truth of a material and its predictions, small, and the files of them.
+#[derive(Debug)]
+pub struct ReducedRow {
+    pub cells: Vec<Reduced>,
+    pub files: Files,
+}
+
 /// The small ground truth of a material, and the predictions of all methods.
 #[derive(Clone, Debug)]
 pub struct ReadRow {
@@ -176,23 +186,55 @@ impl ReadRow {
         Self { open: open.clone(), case, side, version }
     }
 
-    fn read(&self, column: usize, progress: &Progress) -> Reduced {
+    fn read(&self, column: usize, progress: &Progress) -> Result<(Material<f32>, Files), String> {
         let source = self.open.source(self.case, column)?;
         let read: Read<f32> = source.read(&progress.part()).map_err(|error| error.to_string())?;
-        let size = read.material.size();
+        let files = read.files.into_iter().map(|path| (path.clone(), Stamp::of(&path)));
+        Ok((read.material, files.collect()))
+    }
+
+    /// Brings a row to one size, as in the panes.
+    fn register(&self, cells: &mut [Result<Material<f32>, String>]) {
+        let [Ok(truth), predictions @ ..] = cells else { return };
+        let ways = (1..).map(|column| self.open.registration(column));
+        let all: Vec<_> = predictions.iter().map(|one| one.as_ref().ok()).zip(ways).collect();
+        let Some((cut, changed)) = in_one_size(truth, &all) else { return };
+        *truth = cut;
+        for (one, changed) in predictions.iter_mut().zip(changed) {
+            if let Some(changed) = changed {
+                *one = changed.map_err(|error| error.to_string());
+            }
+        }
+    }
+
+    fn small(&self, material: Material<f32>) -> Result<Material<f32>, String> {
+        let size = material.size();
         let (longest, side) = (size[0].max(size[1]), self.side);
         let small = size.map(|length| if longest > side { (length * side / longest).max(1) } else { length });
-        read.material.resized(small).map(Arc::new).map_err(|error| error.to_string())
+        material.resized(small).map_err(|error| error.to_string())
     }
 }
 
 impl Question for ReadRow {
-    type Answer = Vec<Reduced>;
+    type Answer = ReducedRow;
     const PACE: Pace = Pace::AtOnce;
     const KEPT: usize = 32;
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Self::Answer, Error> {
-        let columns = 0..=self.open.methods().len();
-        Ok(columns.into_par_iter().map(|column| self.read(column, work.progress())).collect())
+        // What is registered is brought to one size first.
+        let is_registered = !self.open.reading.registrations.is_empty();
+        let of = |column: usize| match self.read(column, work.progress()) {
+            Ok((material, files)) if is_registered => (Ok(material), files),
+            Ok((material, files)) => (self.small(material), files),
+            Err(problem) => (Err(problem), Files::new()),
+        };
+        let columns = (0..=self.open.methods().len()).into_par_iter();
+        let (mut cells, files): (Vec<_>, Vec<Files>) = columns.map(of).unzip();
+        if is_registered {
+            self.register(&mut cells);
+            cells = cells.into_par_iter().map(|one| self.small(one?)).collect();
+        }
+        let cells = cells.into_iter().map(|one| one.map(Arc::new)).collect();
+        Ok(ReducedRow { cells, files: files.concat() })
     }
 }

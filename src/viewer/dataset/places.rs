@@ -3,7 +3,7 @@
 use eframe::egui::{self, Rect, vec2};
 
 use crate::dataset::matrix::Matrix;
-use crate::dataset::pictures::MatrixCell;
+use crate::dataset::pictures::{MatrixCell, ReadCells};
 use crate::widgets::paint::PanelTextures;
 
 /// Size of a cell without a picture, least width of the names of materials, and their width beside pictures, in points.
@@ -52,6 +52,8 @@ pub struct DatasetUi {
     pub scrolled: Option<egui::Vec2>,
     /// The cell under the pointer in the last frame.
     pub hovered: Option<MatrixCell>,
+    /// What was read of the rows with pictures of the last frame.
+    pub rows: Vec<ReadCells>,
     /// The material that it has scrolled to, and whether with pictures.
     pub scrolled_to: Option<(usize, bool)>,
 }

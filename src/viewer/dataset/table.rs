@@ -171,6 +171,7 @@ impl MatrixTable<'_> {
         for row in range {
             self.row(ui, places, row, &drawn, next);
         }
+        self.state.rows = drawn.rows;
         self.heads(ui, places, next);
     }
 

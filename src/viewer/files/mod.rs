@@ -6,7 +6,7 @@ pub mod read_options;
 pub mod save;
 
 use eframe::egui::text::{LayoutJob, TextFormat};
-use eframe::egui::{self, FontId, RichText};
+use eframe::egui::{self, FontId, RichText, Stroke, vec2};
 
 use svbrdf_evaluate::diagnose::{Finding, sentence_of};
 use svbrdf_files::read::{Assumption, Certainty, Note, ReadOptions};
@@ -15,11 +15,14 @@ use svbrdf_files::source::Place;
 use crate::files::read_options::read_options;
 use crate::jobs::Shown;
 use crate::jobs::answers::content::ComparedPair;
-use crate::model::dataset::OpenDataset;
+use crate::model::dataset::{DatasetState, OpenDataset};
 use crate::model::material::loaded::{LoadedMaterial, drawable};
 use crate::model::{Model, opening};
 use crate::why::diagnosis::{is_offered, known_diagnosis, remedy_button};
 use crate::widgets::{named, theme};
+
+/// The longer side of the outline of a ground truth, in points.
+const PART: f32 = 48.0;
 
 /// Draws the section.
 pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model) {
@@ -43,7 +46,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model) {
         }
     }
     if let Some(open) = &shown.model.dataset.open {
-        decisions(ui, open);
+        decisions(ui, open, materials, &mut next.dataset);
     }
     let pairs = ComparedPair::all(materials, &shown.model.view);
     for (index, material) in materials.iter().enumerate() {
@@ -62,20 +65,55 @@ pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model) {
     }
 }
 
-/// How the methods of a data set are read and lie on their ground truths, and what that rests on.
-fn decisions(ui: &mut egui::Ui, open: &OpenDataset) {
-    let reading = &open.reading;
-    if reading.registrations.is_empty() && reading.decisions.is_empty() {
+/// How the methods of a data set are read and lie on their ground truths, and what that rests on. A registration can be declined.
+fn decisions(ui: &mut egui::Ui, open: &OpenDataset, materials: &[LoadedMaterial], next: &mut DatasetState) {
+    let (accepted, declined) = (&open.reading.registrations, &open.declined);
+    if accepted.is_empty() && declined.is_empty() && open.reading.decisions.is_empty() {
         return;
     }
     ui.separator();
     ui.label(RichText::new("DATA SET").small());
-    for (method, registration) in &reading.registrations {
-        ui.label(RichText::new(format!("{}: registration {registration}", drawable(method))).size(12.5));
+    let all = accepted.iter().map(|(method, way)| (method, way, true));
+    for (method, way, is_accepted) in
+        all.chain(declined.iter().map(|(method, (way, _))| (method, way, false)))
+    {
+        let mut accepts = is_accepted;
+        ui.checkbox(&mut accepts, format!("{}: registration {way}", drawable(method)))
+            .on_hover_text("Which part of the ground truth a prediction is, as the maps have decided; without it, sizes have to be equal");
+        let slot = open.methods().iter().position(|one| one == method).map(|place| place + 1);
+        let prediction = materials.iter().find(|one| Some(one.slot) == slot && is_accepted);
+        if let Some([truth, prediction]) =
+            prediction.and_then(|one| Some([stored(materials.first()?)?, stored(one)?]))
+        {
+            part(ui, truth, way.part([truth, prediction]), slot.unwrap_or_default());
+        }
+        if accepts != is_accepted {
+            next.register(method, accepts);
+        }
     }
-    for decision in &reading.decisions {
+    for decision in &open.reading.decisions {
         ui.label(RichText::new(drawable(decision)).small());
     }
+}
+
+/// The size of a material in its files, of which the window may have a part.
+fn stored(material: &LoadedMaterial) -> Option<[usize; 2]> {
+    material.read.record.maps.iter().map(|map| map.size).max()
+}
+
+/// The outline of a ground truth of this size, and the part of it that is compared, in the colour of a slot.
+fn part(ui: &mut egui::Ui, truth: [usize; 2], part: [[f32; 2]; 2], slot: usize) {
+    let [width, height] = truth.map(|side| side as f32);
+    let size = vec2(width, height) * (PART / width.max(height).max(1.0));
+    let (whole, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+    let corner = |[x, y]: [f32; 2]| whole.min + size * vec2(x, y);
+    let (part, colour) = (
+        egui::Rect::from_min_max(corner(part[0]), corner(part[1])),
+        theme::series(slot, ui.visuals().dark_mode),
+    );
+    let inside = egui::StrokeKind::Inside;
+    ui.painter().rect_stroke(whole, 0.0, Stroke::new(1.0, theme::ground_truth(ui.visuals())), inside);
+    ui.painter().rect(part, 0.0, colour.gamma_multiply(0.3), Stroke::new(1.0, colour), inside);
 }
 
 /// The names of a file of several materials, to choose one.

@@ -1,6 +1,7 @@
 //! Effects of edits, carried out, and results of work on other threads, taken over; saving and copying of the view.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use eframe::egui;
 
@@ -15,6 +16,7 @@ use crate::error::Error;
 use crate::files::dialog;
 use crate::frame::layout::Parts;
 use crate::frame::written::{self, Writing};
+use crate::jobs::watch::Watched;
 use crate::jobs::work::Job;
 use crate::jobs::{Edit, SAVING, Shown};
 use crate::message::Message;
@@ -114,18 +116,27 @@ fn report_problems(parts: &mut Parts, problems: Vec<Message>) {
 
 /// Reads files that have changed again where they are watched, and otherwise marks their materials.
 fn follow_files(parts: &mut Parts) {
-    for index in parts.jobs.watch.poll(&parts.jobs.waker, &parts.model.materials) {
-        if !parts.model.settings.watch {
-            parts.model.materials.all[index].is_newer = true;
-            continue;
-        }
-        if let Some(case) = parts.model.dataset.shown {
+    let Parts { model, jobs, ui, .. } = parts;
+    let (all, rows) = (&model.materials.all, &ui.dataset.rows);
+    let of_rows = rows.iter().map(|(case, row)| Watched::Row(*case, Arc::as_ptr(row).addr()));
+    let watched = all.iter().map(|one| Watched::Material(one.id())).chain(of_rows).collect();
+    let of_rows = rows.iter().map(|(_, row)| row.files.clone());
+    let files = || all.iter().map(|one| one.read.files()).chain(of_rows).collect();
+    for changed in jobs.watch.poll(&jobs.waker, watched, files) {
+        let index = model.materials.all.iter().position(|one| changed == Watched::Material(one.id()));
+        match (changed, model.dataset.shown) {
             // With its losses, all of it in one frame.
-            parts.model.dataset.read_again(case);
-            continue;
-        }
-        for opening in parts.model.materials.reload(Some(&[index])) {
-            parts.model.read(opening);
+            (Watched::Row(case, _), _) | (_, Some(case)) if model.settings.watch => {
+                model.dataset.read_again(case)
+            }
+            (Watched::Row(case, _), _) => model.dataset.newer.extend([case]),
+            _ if !model.settings.watch => {
+                index.into_iter().for_each(|index| model.materials.all[index].is_newer = true);
+            }
+            _ => {
+                let index: Vec<usize> = index.into_iter().collect();
+                model.materials.reload(Some(&index)).into_iter().for_each(|opening| model.read(opening));
+            }
         }
     }
 }

@@ -11,8 +11,6 @@ use svbrdf_files::disk::stamp::Stamp;
 
 use crate::jobs::work::Job;
 use crate::jobs::work::Waker;
-use crate::model::material::MaterialList;
-use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::MaterialId;
 
 /// Time between two checks.
@@ -20,33 +18,45 @@ pub const INTERVAL: Duration = Duration::from_secs(1);
 /// A file that was written before this time is complete.
 pub const QUIET: Duration = Duration::from_secs(3);
 
-/// The files of each material, by its id, with their stamps when they were read.
-type Files = Vec<(MaterialId, Vec<(PathBuf, Option<Stamp>)>)>;
+/// What files are of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Watched {
+    Material(MaterialId),
+    /// A row of the table in sight, and the address of what was read of it.
+    Row(usize, usize),
+}
 
-/// Checks the files of all materials once a second, on a thread that ends when this is dropped.
+/// The files with their stamps when they were read.
+pub type Files = Vec<(PathBuf, Option<Stamp>)>;
+type AllFiles = Vec<(Watched, Files)>;
+
+/// Checks files once a second, on a thread that ends when this is dropped.
 #[derive(Debug, Default)]
 pub struct FileWatch {
-    thread: Option<(Sender<Files>, Job<(), MaterialId>)>,
-    ids: Vec<MaterialId>,
+    thread: Option<(Sender<AllFiles>, Job<(), Watched>)>,
+    watched: Vec<Watched>,
 }
 
 impl FileWatch {
-    /// The indices of the materials whose files have changed since the last call.
-    pub fn poll(&mut self, waker: &Waker, materials: &MaterialList) -> Vec<usize> {
-        let ids: Vec<MaterialId> = materials.all.iter().map(LoadedMaterial::id).collect();
-        let (files, job) = self.thread.get_or_insert_with(|| watch(waker, INTERVAL));
-        if self.ids != ids {
+    /// Those of `watched` with files, which `files` tells of all, that have changed since the last call.
+    pub fn poll(
+        &mut self,
+        waker: &Waker,
+        watched: Vec<Watched>,
+        files: impl FnOnce() -> Vec<Files>,
+    ) -> Vec<Watched> {
+        let (sender, job) = self.thread.get_or_insert_with(|| watch(waker, INTERVAL));
+        if self.watched != watched {
             // The thread ends only with this watch.
-            let _ = files.send(materials.all.iter().map(|one| (one.id(), one.read.files())).collect());
-            self.ids = ids;
+            let _ = sender.send(watched.iter().copied().zip(files()).collect());
+            self.watched = watched;
         }
-        let index = |id| materials.all.iter().position(|one| one.id() == id);
-        job.updates().into_iter().filter_map(index).collect()
+        job.updates().into_iter().filter(|one| self.watched.contains(one)).collect()
     }
 }
 
 /// Starts to watch the files that are sent, in place of the earlier ones.
-fn watch(waker: &Waker, interval: Duration) -> (Sender<Files>, Job<(), MaterialId>) {
+fn watch(waker: &Waker, interval: Duration) -> (Sender<AllFiles>, Job<(), Watched>) {
     let (files, new_files) = mpsc::channel();
     let job = Job::watch(waker, move |worker| {
         let mut check = Check::default();
@@ -65,18 +75,18 @@ fn watch(waker: &Waker, interval: Duration) -> (Sender<Files>, Job<(), MaterialI
 /// The watched files, and the changes that have been reported.
 #[derive(Debug, Default)]
 struct Check {
-    files: Files,
+    files: AllFiles,
     reported: HashMap<PathBuf, Stamp>,
     /// As they were at the last check.
     latest: HashMap<PathBuf, Stamp>,
 }
 
 impl Check {
-    /// The materials with a file that has changed since it was read and since it was last reported. A material with a file that is being
-    /// written, or that is not there, has not changed yet.
-    fn changes(&mut self) -> Vec<MaterialId> {
+    /// Those with a file that has changed since it was read and since it was last reported. Those with a file that is being written, or
+    /// that is not there, have not changed yet.
+    fn changes(&mut self) -> Vec<Watched> {
         let now = SystemTime::now();
-        let (mut latest, mut changes) = (HashMap::new(), Vec::new());
+        let (mut latest, mut changes, mut reported) = (HashMap::new(), Vec::new(), Vec::new());
         for (id, files) in &self.files {
             let (mut changed, mut is_still) = (Vec::new(), true);
             for (path, read) in files {
@@ -88,10 +98,12 @@ impl Check {
                 }
             }
             if is_still && !changed.is_empty() {
-                self.reported.extend(changed);
+                reported.extend(changed);
                 changes.push(*id);
             }
         }
+        // A file may be of several.
+        self.reported.extend(reported);
         self.latest = latest;
         changes
     }
@@ -110,11 +122,12 @@ mod tests {
     }
 
     /// A file written and read at 1000 s, watched for a material.
-    fn watched(folder: &tempfile::TempDir) -> (PathBuf, Files) {
+    fn watched(folder: &tempfile::TempDir) -> (PathBuf, AllFiles) {
         let path = folder.path().join("map.png");
         std::fs::write(&path, "a").unwrap();
         set_time(&path, 1000);
-        let files = vec![(MaterialId::next(), vec![(path.clone(), Stamp::of(&path))])];
+        let files = vec![(path.clone(), Stamp::of(&path))];
+        let files = vec![(Watched::Material(MaterialId::next()), files.clone()), (Watched::Row(0, 0), files)];
         (path, files)
     }
 
@@ -143,7 +156,7 @@ mod tests {
         ];
         for (step, (event, is_reported)) in events.into_iter().enumerate() {
             event();
-            assert_eq!(!check.changes().is_empty(), is_reported, "{step}");
+            assert_eq!(check.changes().len(), if is_reported { 2 } else { 0 }, "{step}");
         }
     }
 
@@ -158,7 +171,7 @@ mod tests {
             counted.fetch_add(1, Ordering::SeqCst);
         });
         let (sender, job) = watch(&waker, Duration::from_millis(1));
-        sender.send(files).unwrap();
+        sender.send(files[..1].to_vec()).unwrap();
         std::thread::sleep(Duration::from_millis(50));
         assert_eq!((repaints.load(Ordering::SeqCst), job.updates()), (0, vec![]));
         set_time(&path, 2000);

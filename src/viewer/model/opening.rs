@@ -154,7 +154,8 @@ pub fn retry(model: &mut Model, retry: Retry) {
 /// Reads all files again.
 pub fn reload(model: &mut Model) {
     if model.dataset.open.is_some() {
-        model.dataset.read_again(model.dataset.wanted);
+        model.dataset.newer.insert(model.dataset.wanted);
+        model.dataset.newer.clone().into_iter().for_each(|case| model.dataset.read_again(case));
     } else {
         model.materials.reload(None).into_iter().for_each(|opening| model.read(opening));
     }

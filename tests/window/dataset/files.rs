@@ -1,6 +1,7 @@
 //! The files of a data set: they change, cannot be read, are many predictions of one material, or need a registration.
 
 use svbrdf_viewer::dataset::matrix::Matrix;
+use svbrdf_viewer::dataset::pictures::{self, MatrixCell};
 
 use super::*;
 
@@ -148,6 +149,42 @@ fn predictions_of_a_registered_method_are_seen_on_their_part_of_the_ground_truth
         |a: &Material<f32>, b: &Material<f32>| (0..32 * 32).all(|texel| a.texel(texel) == b.texel(texel));
     assert!(same(&materials[0], &materials[1]) && same(&materials[0], &materials[2]));
     assert_eq!(loss(&window, 0, 1).unwrap().loss, 0.0);
+    // Its cell has the same picture, also of the difference.
+    edit(&mut window, |model| model.view.display.difference = true);
+    wait_in(&mut window, "the difference of the cell", |window| {
+        let of = |column| MatrixCell { case: 0, column };
+        pictures::latest(window.shown())
+            .is_some_and(|pictures| pictures.range.is_some() && pictures.part(of(2)).is_some())
+    });
+    // It is declined by a click, and accepted by another.
     tab(&mut window, "Files");
-    assert!(has(&window, "crop: registration "));
+    window.get_by_label_contains("crop: registration ").click();
+    wait(&mut window, "no registration", |app| app.names() == ["a", "whole"]);
+    assert!(window.materials().all(|one| one.size() == [48, 48]));
+    wait(&mut window, "no losses", |app| known::ask(app.shown()).count() == 3);
+    assert_eq!(loss(&window, 0, 1), None);
+    window.get_by_label_contains("crop: registration ").click();
+    wait(&mut window, "the registration", |app| app.names() == ["a", "whole", "crop"]);
+    wait(&mut window, "all losses", |app| loss(app, 0, 1).is_some_and(|known| known.loss == 0.0));
+    // A session has it, too.
+    let session = folder.path().join("crops.svbrdf-session.json");
+    save(&mut window, SaveKind::Session, &session);
+    let mut later = on_session(&session);
+    wait(&mut later, "the session", |app| app.names() == ["a", "whole", "crop"]);
+}
+
+/// A method without a prediction has its name in the colour of text: that of its slot has too little contrast.
+#[needs(adapter)]
+fn the_name_of_an_empty_pane_is_readable() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = on_dataset(&dataset(folders(folder.path()), None));
+    press(&mut window, egui::Key::PageDown);
+    wait(&mut window, "b", |app| app.names()[0] == "b");
+    window.run_steps(3);
+    let name = window.get_by_label("2  theirs").rect();
+    let picture = pixels(&mut window, name);
+    let is_coloured = |pixel: &&image::Rgba<u8>| {
+        pixel.0[..3].iter().max().unwrap() - pixel.0[..3].iter().min().unwrap() > 60
+    };
+    assert_eq!(picture.pixels().filter(is_coloured).count(), 0);
 }

@@ -3,12 +3,13 @@
 pub mod list;
 pub mod session;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use svbrdf_core::loss::Request;
 use svbrdf_evaluate::dataset::{CandidateFile, Case, DatasetReading, DatasetSettings, Source};
+use svbrdf_evaluate::registration::Registration;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::session::dataset::SessionMark;
 use svbrdf_files::source::{MaterialSource, Place};
@@ -31,6 +32,8 @@ pub struct OpenDataset {
     pub cases: Vec<Case>,
     /// The folder of losses that are known, to which new ones are added.
     pub results: Option<PathBuf>,
+    /// The registrations that a person has declined, by the name of the method, each with the line of its decision.
+    pub declined: BTreeMap<String, (Registration, Option<String>)>,
 }
 
 impl OpenDataset {
@@ -46,7 +49,7 @@ impl OpenDataset {
     ) -> Result<Self, Error> {
         let cases = source.cases()?;
         let settings = DatasetSettings::new(source, ChosenConvention::default(), request, &cases);
-        Ok(Self { settings, reading, cases, results })
+        Ok(Self { settings, reading, cases, results, declined: BTreeMap::new() })
     }
 
     /// The predictions of one ground truth as a list of them, where they are too many to be seen at once and all are files that are
@@ -82,6 +85,11 @@ impl OpenDataset {
 
     pub fn methods(&self) -> &[String] {
         &self.settings.methods
+    }
+
+    /// How the predictions of the method in a column are registered.
+    pub fn registration(&self, column: usize) -> Option<Registration> {
+        self.reading.registrations.get(self.methods().get(column.checked_sub(1)?)?).copied()
     }
 
     /// The name of a material.
@@ -129,6 +137,8 @@ pub struct DatasetState {
     pub is_stale: bool,
     /// How often the files of each material were read again.
     pub versions: Arc<Vec<u64>>,
+    /// The materials of rows in sight that have files which were written since.
+    pub newer: BTreeSet<usize>,
     /// What the last frame had in sight.
     pub in_sight: InSight,
     /// What of it is not in the window.
@@ -200,13 +210,30 @@ impl DatasetState {
         self.versions.get(case).copied().unwrap_or_default()
     }
 
-    /// Reads the files of a material in the window again, with its losses.
+    /// Reads the files of a material again, with its losses.
     pub fn read_again(&mut self, case: usize) {
         // It may be the ground truth of all.
         let has_all = self.open.as_ref().is_some_and(|open| open.is_of_predictions());
         let versions = Arc::make_mut(&mut self.versions).iter_mut().enumerate();
         versions.filter(|(of, _)| has_all || *of == case).for_each(|(_, version)| *version += 1);
-        self.is_stale = true;
+        self.newer.retain(|of| !has_all && *of != case);
+        self.is_stale |= has_all || self.wanted == case;
+    }
+
+    /// Compares the predictions of a method in the registration that the maps have decided, or declines it.
+    pub fn register(&mut self, method: &str, is_accepted: bool) {
+        let Some(mut open) = self.open.as_deref().cloned() else { return };
+        let DatasetReading { registrations, decisions, .. } = &mut open.reading;
+        if let Some((way, line)) = open.declined.remove(method).filter(|_| is_accepted) {
+            registrations.insert(method.to_owned(), way);
+            decisions.splice(0..0, line);
+        } else if let Some(way) = registrations.remove(method) {
+            let begin = format!("{method}: {way} of ");
+            let line = decisions.iter().position(|line| line.starts_with(&begin));
+            let line = line.map(|line| decisions.remove(line));
+            open.declined.insert(method.to_owned(), (way, line));
+        }
+        (self.open, self.is_stale) = (Some(Arc::new(open)), true);
     }
 
     /// Puts the table with pictures in the place of the panes, or the panes in its.

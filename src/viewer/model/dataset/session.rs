@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf_core::loss::{ALL_SCENES_TARGET, Request};
-use svbrdf_evaluate::dataset::{DatasetReading, Method, Source};
+use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::dataset::{DatasetReading, Method, Source, decided};
 use svbrdf_files::session::dataset::{SessionDataset, SessionMethod};
 
 use crate::error::Error;
@@ -39,15 +40,16 @@ impl DatasetState {
         })
     }
 
-    /// The data set of a session, whose materials are matched; `results` is a folder that a person named. Where it is `strict`, guesses
-    /// are errors.
+    /// The data set of a session, whose materials are matched, and registered by their maps; `results` is a folder that a person named.
+    /// Where it is `strict`, guesses are errors.
     ///
     /// # Errors
-    /// Those of [`OpenDataset::new`].
+    /// Those of [`OpenDataset::new`] and [`decided`].
     pub fn of_session(
         session: SessionDataset,
         results: Option<PathBuf>,
         strict: bool,
+        progress: &Progress,
     ) -> Result<Self, Error> {
         let SessionDataset { ground_truths, methods, predictions, shown, list, marks, .. } = session;
         // Another version may have had other terms.
@@ -72,6 +74,9 @@ impl DatasetState {
         let request = Request::Accuracy { target: session.target_error, seed: session.seed };
         let mut open = OpenDataset::new(source, reading, request, results)?;
         open.settings.diagnose = session.diagnose;
+        if !open.is_of_predictions() {
+            open.reading = decided(&open.cases, open.reading, progress)?;
+        }
         let wanted = open.cases.iter().position(|case| case.material == shown).unwrap_or(0);
         Ok(Self { list, wanted, marks, ..open.into() })
     }

@@ -10,6 +10,9 @@ use svbrdf_files::source::Place;
 use crate::message::SizeMismatch;
 use crate::model::material::read::{MaterialId, ReadMaterial};
 
+/// What marks a file that was written since it was read.
+pub const NEWER: &str = "newer on disk: Ctrl+R";
+
 /// A material in the window.
 #[derive(Clone, Debug)]
 pub struct LoadedMaterial {
@@ -70,12 +73,11 @@ impl LoadedMaterial {
 
     /// Its name, marked where it is stale.
     pub fn label(&self) -> String {
-        let mark = match (self.is_stale(), self.is_newer) {
-            (true, _) => "  (stale)",
-            (false, true) => "  (newer on disk: Ctrl+R)",
-            (false, false) => "",
-        };
-        format!("{}{mark}", self.name)
+        match (self.is_stale(), self.is_newer) {
+            (true, _) => format!("{}  (stale)", self.name),
+            (false, true) => format!("{}  ({NEWER})", self.name),
+            (false, false) => self.name.clone(),
+        }
     }
 }
 
