@@ -123,6 +123,7 @@ impl Alignments {
             Ok((symmetry, best.map_or([0, 0], whole)))
         };
         let symmetries = symmetries.into_iter().take(2).map(shifted).collect::<Result<_, Error>>()?;
+        let placement = placement.filter(|one| *one != Placement::moved(whole(*one)));
         Ok(Self { shifts, placement, symmetries })
     }
 }

@@ -6,6 +6,7 @@ use super::proposals::Proposal;
 use super::trials::{Paired, Trials, mean};
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Map;
+use svbrdf_core::parallel;
 use svbrdf_core::statistics::sort_by_number;
 use svbrdf_files::changes::{Change, Reading};
 
@@ -57,6 +58,15 @@ impl Explanation {
     fn is_aligned(&self) -> bool {
         use Hypothesis::{Placement, Shift, Symmetry};
         self.proposals.iter().any(|one| matches!(one.hypothesis, Shift | Placement | Symmetry))
+    }
+
+    /// The same changes with one factor in place of that on each channel, which may have stood for another change. `None` without such
+    /// factors.
+    fn with_one_factor(&self) -> Option<Vec<Proposal>> {
+        let mut proposals = self.proposals.clone();
+        let factors = proposals.iter_mut().find(|one| one.hypothesis == Hypothesis::ExposureRgb)?;
+        *factors = Proposal::exposure([0.0; 3], Hypothesis::Exposure);
+        Some(proposals)
     }
 
     /// Whether it has the same changes.
@@ -143,8 +153,10 @@ fn extended(
     for one in open.iter().filter(|one| one.ratio > resolvable) {
         let added = singles(pilot).into_iter().filter(|added| one.admits(added)).map(|added| vec![added]);
         let aligned = aligned.iter().filter(|_| !one.is_aligned()).cloned();
-        let with = |added: Vec<Proposal>| [one.proposals.clone(), added].concat();
-        let tried = tried(pilot, added.chain(aligned).map(with).collect())?;
+        let added: Vec<Vec<Proposal>> = added.chain(aligned).collect();
+        let bases = std::iter::once(one.proposals.clone()).chain(one.with_one_factor());
+        let sets = bases.flat_map(|base| added.iter().map(move |added| [&base[..], added].concat()));
+        let tried = tried(pilot, sets.collect())?;
         let limit = PROMISING * one.ratio;
         let is_kept = |new: &Explanation| new.ratio < limit || new.is_aligned() && !one.is_aligned();
         all.extend(tried.into_iter().filter(is_kept));
@@ -172,7 +184,7 @@ fn singles(pilot: &Trials<'_>) -> Vec<Proposal> {
 
 /// The losses under each of these sets of changes, which are fitted.
 fn tried(pilot: &Trials<'_>, sets: Vec<Vec<Proposal>>) -> Result<Vec<Explanation>, Error> {
-    let sets = sets.into_iter().map(|set| fitted(pilot, set)).collect::<Result<Vec<_>, Error>>()?;
+    let sets = parallel::try_map(sets.len(), |set| fitted(pilot, sets[set].clone()))?;
     let trials: Vec<Vec<Change>> =
         sets.iter().map(|set| set.iter().filter_map(|one| one.change).collect()).collect();
     let losses = pilot.losses(&trials)?;

@@ -1,5 +1,7 @@
 //! Pairs of a ground truth and a prediction, the texels that scenes are compared on, taken out of a map, and their radiances.
 
+use std::ops::Range;
+
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Sampling};
 use svbrdf_core::material::{Grid, Material};
@@ -80,6 +82,17 @@ pub(super) struct SampledPair {
 impl SampledPair {
     pub(super) fn new(samples: LossSamples, pair: &Pair<'_>) -> Self {
         let [ground_truth, prediction] = [pair.ground_truth, pair.prediction].map(|map| samples.of_map(map));
+        Self { samples, ground_truth, prediction }
+    }
+
+    /// The texels of some of the scenes.
+    pub(super) fn of_scenes(&self, scenes: Range<usize>) -> Self {
+        let LossSamples { grid, texels, count } = &self.samples;
+        let of = scenes.start * count..scenes.end * count;
+        let own: Vec<usize> = of.clone().collect();
+        let [ground_truth, prediction] =
+            [&self.ground_truth, &self.prediction].map(|all| all.gathered(&own, [own.len(), 1]));
+        let samples = LossSamples { grid: *grid, texels: texels[of].to_vec(), count: *count };
         Self { samples, ground_truth, prediction }
     }
 }

@@ -1,5 +1,6 @@
 //! The losses of a prediction before and after changes, in the same scenes on the same texels.
 
+use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::alignment::Interior;
@@ -19,6 +20,8 @@ use svbrdf_files::changes::Change;
 
 /// Changed predictions are rendered together as far as their maps fit into this much memory.
 const MOST_BYTES: usize = 1 << 30;
+/// Scenes whose texels are changed together where they are taken out of maps: few enough for the caches of a processor.
+const BAND: usize = 32;
 /// Texels of a scene whose radiances are compared one by one, for exposures.
 const RADIANCES: usize = 1024;
 
@@ -74,6 +77,20 @@ impl<'a> Trials<'a> {
 
     /// The losses under each of `trials`.
     pub(super) fn losses(&self, trials: &[Vec<Change>]) -> Result<Vec<Paired>, Error> {
+        let count = self.scenes.len();
+        if let Some(sampled) = self.samples.as_ref().filter(|_| count > BAND) {
+            let band = |index: usize| {
+                let scenes = index * BAND..((index + 1) * BAND).min(count);
+                self.of_scenes(sampled, scenes).losses(trials)
+            };
+            let bands = parallel::try_map(count.div_ceil(BAND), band)?;
+            let all = |trial: usize, of: fn(&Paired) -> &Vec<f64>| {
+                bands.iter().flat_map(|band| of(&band[trial])).copied().collect()
+            };
+            let paired =
+                |trial| Paired { before: all(trial, |one| &one.before), after: all(trial, |one| &one.after) };
+            return Ok((0..trials.len()).map(paired).collect());
+        }
         let [width, height] = self.materials()[0].size();
         let bytes = 10 * size_of::<f32>() * width * height;
         let mut losses = Vec::new();
@@ -82,6 +99,16 @@ impl<'a> Trials<'a> {
             losses.extend(self.of_corrected(&corrected)?);
         }
         Ok(losses)
+    }
+
+    /// The trials in some of the scenes.
+    fn of_scenes(&self, sampled: &SampledPair, scenes: Range<usize>) -> Self {
+        Self {
+            samples: Some(sampled.of_scenes(scenes.clone())),
+            scenes: self.scenes[scenes].to_vec(),
+            latest: Mutex::default(),
+            ..*self
+        }
     }
 
     /// The losses without changes.

@@ -40,9 +40,11 @@ pub fn found(truth: &Material<f32>, prediction: &Material<f32>) -> Option<Found>
     resized.into_iter().chain(crops).max_by(|a, b| a.correlation.total_cmp(&b.correlation))
 }
 
-/// The place of `part` in a larger ground truth, and how well the maps correlate there.
+/// The place of `part` in a larger ground truth, and how well the maps correlate there. A reading of `part` that turns values over does not
+/// change it.
 pub(crate) fn place(truth: &Material<f32>, part: &Material<f32>) -> Option<([usize; 2], f64)> {
-    match best_crop(&[truth, part].map(Planes::of), 1)? {
+    let part = Planes { is_any_reading: true, ..Planes::of(part) };
+    match best_crop(&[Planes::of(truth), part], 1)? {
         Found { registration: Registration::Crop { x, y, .. }, correlation } => Some(([x, y], correlation)),
         _ => None,
     }
@@ -199,6 +201,8 @@ fn texels([width, height]: [usize; 2]) -> Vec<[usize; 2]> {
 struct Planes {
     size: [usize; 2],
     planes: [Vec<f32>; 4],
+    /// Whether values may be turned over.
+    is_any_reading: bool,
 }
 
 impl Planes {
@@ -207,13 +211,14 @@ impl Planes {
         let [r, g, b] = &planes.diffuse;
         let diffuse = r.iter().zip(g).zip(b).map(|((r, g), b)| (r + g + b) / 3.0).collect();
         let [x, y, _] = &planes.normal;
-        Self { size: material.size(), planes: [x.clone(), y.clone(), diffuse, planes.roughness.clone()] }
+        let planes = [x.clone(), y.clone(), diffuse, planes.roughness.clone()];
+        Self { size: material.size(), planes, is_any_reading: false }
     }
 
     fn resized(&self, size: [usize; 2]) -> Self {
         let size = size.map(|side| side.max(1));
         let of = |plane: &Vec<f32>| resize::plane(plane.clone(), self.size, size, Filter::Value);
-        Self { size, planes: self.planes.each_ref().map(of) }
+        Self { size, planes: self.planes.each_ref().map(of), ..*self }
     }
 
     /// The mean correlation over the planes of values at `texels` with those of `larger` from `at` on; `None` where all are flat.
@@ -223,7 +228,8 @@ impl Planes {
                 let there = (at[1] + y) * larger.size[0] + at[0] + x;
                 [own[y * self.size[0] + x], other[there]].map(f64::from)
             });
-            correlation(values)
+            let signed = correlation(values)?;
+            Some(if self.is_any_reading { signed.abs() } else { signed })
         };
         let all: Vec<f64> = self.planes.iter().zip(&larger.planes).filter_map(of).collect();
         (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64)
