@@ -10,14 +10,16 @@ mod readable;
 #[cfg(feature = "viewer")]
 mod shaders;
 
-use svbrdf_core::material::{Material, Planes};
-use svbrdf_core::model::convention::Convention;
+use svbrdf_core::loss::Request;
+use svbrdf_core::material::{Mask, Material, Planes};
+use svbrdf_core::model::convention::{Convention, PRINTED};
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::report::AnalysisInput;
 use svbrdf_files::read::Read;
 use svbrdf_files::session::window::SessionDisplay;
 use svbrdf_files::source::MaterialSource;
-use svbrdf_page::{PageReport, View};
+use svbrdf_page::{Findings, PageReport, View};
 
 #[cfg(target_os = "linux")]
 #[test]
@@ -66,6 +68,7 @@ fn html(report: &PageReport<'_>) -> String {
 fn report<'a>(materials: &'a [&Material<f32>], convention: Convention) -> PageReport<'a> {
     PageReport {
         materials,
+        is_masked: false,
         convention,
         view: View {
             scene: Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] },
@@ -76,6 +79,55 @@ fn report<'a>(materials: &'a [&Material<f32>], convention: Convention) -> PageRe
         readings: Vec::new(),
         command: None,
         max_bytes: 10_000_000,
+    }
+}
+
+/// What a page finds about a prediction, over the texels of a mask.
+fn findings([truth, prediction]: [&Material<f32>; 2], mask: Option<Mask>) -> Findings {
+    let input = AnalysisInput {
+        ground_truth: truth,
+        predictions: vec![prediction],
+        storages: Vec::new(),
+        paths: Vec::new(),
+        convention: PRINTED,
+        request: Request::Accuracy { target: 0.05, seed: 0 },
+        few_scenes: false,
+        mask,
+    };
+    Findings::new(&input, &Progress::default()).unwrap()
+}
+
+#[test]
+fn texels_outside_of_a_mask_are_gray_and_do_not_count() {
+    let truth = noise(1);
+    let size = truth.size();
+    let left: Vec<bool> = (0..size[0] * size[1]).map(|texel| texel % size[0] < 24).collect();
+    let mut planes = truth.planes().clone();
+    planes.roughness.iter_mut().zip(&left).filter(|(_, left)| !**left).for_each(|(r, _)| *r = 1.0 - *r);
+    let right_of_it = Material::new("wrong on the right", size[0], size[1], planes).unwrap();
+    let [left, right, all] = [left.clone(), left.iter().map(|left| !left).collect(), vec![true; left.len()]]
+        .map(|kept| findings([&truth, &right_of_it], Mask::new(size, kept)));
+    let loss = |found: &Findings| found.loss.outcome.losses[0].estimate.mean;
+    let blamed = |found: &Findings| {
+        let blame = serde_json::to_value(&found.blame).unwrap();
+        blame["attributions"][0]["maps"][3]["shapley"]["mean"].as_f64().unwrap()
+    };
+    assert_eq!([loss(&left), blamed(&left)], [0.0; 2]);
+    assert!(left.worst.iter().all(|scene| scene.losses == [0.0]), "{:?}", left.worst);
+    for of in [loss, blamed] {
+        let ratio = of(&right) / of(&all);
+        assert!((1.8..2.2).contains(&ratio), "{ratio}");
+    }
+    let materials = [&truth, &right_of_it];
+    let page = PageReport { findings: Some(right), is_masked: true, ..report(&materials, PRINTED) };
+    let html = html(&page);
+    for said in [
+        "Rendering loss over the mask of 1152 texels",
+        "48 x 48 texels, 1152 in the mask",
+        "Gray: outside of the mask",
+        "on all texels of the mask",
+    ] {
+        assert!(html.contains(said), "{said}");
     }
 }
 

@@ -11,9 +11,10 @@ use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::session::window::SessionDisplay;
 use svbrdf_page::{Findings, MOST_BYTES, PageReport, View, check_destination, exposure};
 
+use super::args::protocol::MaskArgs;
 use super::args::scenes::{Accuracy, RenderingArgs, SceneArgs};
 use super::args::{ComparisonArgs, Specified};
-use super::job::{ComparisonJob, Job, NewJob, SessionSettings};
+use super::job::{self, ComparisonJob, Job, NewJob, SessionSettings};
 use super::output::{CommandError, command_line, exit, stoppable, warn_of, watched};
 
 /// Writes a page with an interactive figure and the findings, which opens in any browser
@@ -44,6 +45,9 @@ pub struct ReportArgs {
     rendering: RenderingArgs,
 
     #[command(flatten)]
+    mask: MaskArgs,
+
+    #[command(flatten)]
     comparison: ComparisonArgs,
 }
 
@@ -63,10 +67,11 @@ struct ReportJob {
 
 impl ReportArgs {
     pub fn job(self, given: &Specified) -> NewJob {
-        let Self { output, figure: is_figure, accuracy, rendering, comparison } = self;
+        let Self { output, figure: is_figure, accuracy, rendering, mask, comparison } = self;
         check_destination(&output)?;
         let mut comparison = ComparisonJob::new(&comparison, given)?;
         comparison.materials.is_comparison = true;
+        comparison.materials.mask(mask.mask.as_ref());
         let (session, is_alone) = (comparison.session.as_ref(), comparison.materials.predictions() == 0);
         if is_figure {
             given.refuse::<SceneArgs<Accuracy>>("the figure alone has no loss")?;
@@ -91,21 +96,27 @@ impl Job for ReportJob {
         let ComparisonJob { convention, materials, .. } = comparison;
         let opened = materials.open::<f32>()?;
         check_output(&output)?;
-        let ground_truth = &opened.ground_truth;
-        let exposure_ev = exposure_ev.unwrap_or_else(|| exposure(ground_truth, &scene, &convention));
-        let predictions: Vec<_> = opened.predictions.iter().collect();
-        let findings = |request: &Request| {
-            watched("rendering", |p| Findings::new(ground_truth, &predictions, convention, request, p))
+        let findings = |request| {
+            let input = job::input(&opened, &materials, convention, request);
+            watched("rendering", |progress| Findings::new(&input, progress))
         };
-        let findings = request.as_ref().map(findings).transpose()?;
+        let findings = request.map(findings).transpose()?;
         let missed = findings.as_ref().map_or(Vec::new(), |findings| findings.loss.missed());
-        let all: Vec<&Material<f32>> = std::iter::once(ground_truth).chain(predictions).collect();
+        let (readings, mask) = (opened.readings.clone(), opened.mask.clone());
+        let gray = |one: Material<f32>| match &mask {
+            Some(mask) => one.gray_outside(mask),
+            None => one,
+        };
+        let all: Vec<_> = opened.into_all().into_iter().map(gray).collect();
+        let exposure_ev = exposure_ev.unwrap_or_else(|| exposure(&all[0], &scene, &convention));
+        let all: Vec<&Material<f32>> = all.iter().collect();
         let report = PageReport {
             materials: &all,
+            is_masked: mask.is_some(),
             convention,
             view: View { scene, exposure_ev, display },
             findings,
-            readings: if is_figure { Vec::new() } else { opened.readings.clone() },
+            readings: if is_figure { Vec::new() } else { readings },
             command: (!is_figure).then(command_line),
             max_bytes: MOST_BYTES,
         };

@@ -264,7 +264,8 @@ mod tests {
             let interval = |a: usize, b: usize| Some([of[a] - of[b] - half, of[a] - of[b] + half]);
             Scores::new("of".to_owned(), of.to_vec(), interval)
         };
-        let compared = Compared { ground_truth: "gt".into(), size: [4; 2], convention: "", epsilon: 0.0 };
+        let compared =
+            Compared { ground_truth: "gt".into(), size: [4; 2], masked: None, convention: "", epsilon: 0.0 };
         let answers: Vec<_> = scores.iter().map(answer).collect();
         RobustReport::of_answers(compared, Vec::new(), &["a", "b", "c"].map(str::to_owned), &answers)
     }

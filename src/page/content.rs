@@ -1,14 +1,13 @@
 //! The content of a page: a figure, reports, how the files were read, and how to repeat it.
 
-use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::Error;
 use svbrdf_evaluate::analyses::{BlameReport, LossReport};
-use svbrdf_evaluate::report::Compared;
-use svbrdf_evaluate::why::{RankedScene, attribute, worst_on_all_texels};
-use svbrdf_files::Error;
+use svbrdf_evaluate::report::{Analysis as _, AnalysisInput, NoOptions};
+use svbrdf_evaluate::why::{RankedScene, worst_on_all_texels};
 use svbrdf_files::session::window::SessionDisplay;
 
 /// Worst scenes of the page.
@@ -33,25 +32,15 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// The findings of `request`, which every prediction has in the same scenes.
+    /// The findings of a comparison, whose predictions all have the same scenes.
     ///
     /// # Errors
-    /// Those of [`Comparison::run`] and [`attribute`].
-    pub fn new(
-        ground_truth: &Material<f32>,
-        predictions: &[&Material<f32>],
-        convention: Convention,
-        request: &Request,
-        progress: &Progress,
-    ) -> Result<Self, Error> {
-        let comparison = Comparison::new(ground_truth, predictions, convention)?;
-        let outcome = comparison.run(request, progress)?;
-        let worst = worst_on_all_texels(&comparison, &outcome, SCENES, progress)?;
-        let loss = LossReport::new(&comparison, request, outcome);
-        let one =
-            |prediction: &&Material<f32>| attribute(ground_truth, prediction, &convention, request, progress);
-        let attributions = predictions.iter().map(one).collect::<Result<_, _>>()?;
-        let blame = BlameReport::new(Compared::new(ground_truth, &convention), request, attributions);
+    /// Those of [`LossReport::run`] and [`BlameReport::run`].
+    pub fn new(input: &AnalysisInput<'_>, progress: &Progress) -> Result<Self, Error> {
+        let loss = LossReport::run(input, &NoOptions {}, progress)?;
+        let worst = input
+            .comparing(|comparison| Ok(worst_on_all_texels(&comparison, &loss.outcome, SCENES, progress)?))?;
+        let blame = BlameReport::run(input, &NoOptions {}, progress)?;
         Ok(Self { loss, blame, worst })
     }
 }
@@ -61,6 +50,8 @@ impl Findings {
 pub struct PageReport<'a> {
     /// The ground truth, then the predictions, of one size.
     pub materials: &'a [&'a Material<f32>],
+    /// Whether they are gray outside of a mask.
+    pub is_masked: bool,
     pub convention: Convention,
     pub view: View,
     /// `None`: the figure alone.

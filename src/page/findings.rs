@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use svbrdf_core::loss::{Loss, Outcome};
 use svbrdf_core::model::scene::Kind;
+use svbrdf_evaluate::analyses::LossReport;
 use svbrdf_evaluate::report::{Reader, Report as EvaluateReport, Table};
 use svbrdf_files::disk::atomic::SOFTWARE;
 
@@ -49,7 +50,7 @@ pub(super) fn text_html(text: &str, rows: &Table) -> String {
 }
 
 /// The losses in one line, or the least of many; then whether the least is significantly less than the others.
-pub(super) fn summary(outcome: &Outcome, convention: &str) -> String {
+pub(super) fn summary(LossReport { outcome, convention, masked, .. }: &LossReport) -> String {
     let one = |loss: &Loss| format!("{} {}", escaped(&loss.prediction), number(loss.estimate.mean));
     let all = &outcome.losses;
     let best = (0..all.len()).min_by(|a, b| all[*a].estimate.mean.total_cmp(&all[*b].estimate.mean));
@@ -58,7 +59,8 @@ pub(super) fn summary(outcome: &Outcome, convention: &str) -> String {
         None => all.iter().map(one).collect::<Vec<_>>().join(", "),
     };
     let verdicts = best.map_or(String::new(), |best| verdicts(outcome, best));
-    format!("Rendering loss, convention {convention}: {texts}.{verdicts}")
+    let masked = masked.map_or(String::new(), |kept| format!(" over the mask of {kept} texels"));
+    format!("Rendering loss{masked}, convention {convention}: {texts}.{verdicts}")
 }
 
 /// The prediction with the least loss against all others, on the same scenes.
@@ -103,8 +105,9 @@ fn worst_scenes(report: &PageReport<'_>, findings: &Findings) -> (String, Vec<Li
         linked.push(LinkedScene { scene, exposure });
     }
     let html = format!(
-        "<p>The scenes of the loss with the largest mean loss of all predictions, on all texels. A click puts light and view of \
-         the figure there.</p><ol>{items}</ol>"
+        "<p>The scenes of the loss with the largest mean loss of all predictions, on all texels{}. A click puts light and view of \
+         the figure there.</p><ol>{items}</ol>",
+        if report.is_masked { " of the mask" } else { "" }
     );
     (section("Worst scenes", &html), linked)
 }

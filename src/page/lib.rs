@@ -139,7 +139,7 @@ impl PageReport<'_> {
     }
 
     fn summary(&self) -> Option<String> {
-        self.findings.as_ref().map(|found| findings::summary(&found.loss.outcome, self.convention.name))
+        self.findings.as_ref().map(|found| findings::summary(&found.loss))
     }
 
     /// What the still picture has.
@@ -149,7 +149,8 @@ impl PageReport<'_> {
         let drawn = self.convention.drawn().name;
         let drawn = if drawn == self.convention.name { String::new() } else { format!(" Drawn as {drawn}.") };
         let content = self.content().text(epsilon);
-        format!("In reading order: {}. Shown: {}.{drawn}", names.join(", "), escaped(&content))
+        let masked = if self.is_masked { " Gray: outside of the mask, and not compared." } else { "" };
+        format!("In reading order: {}. Shown: {}.{drawn}{masked}", names.join(", "), escaped(&content))
     }
 
     fn header(&self, reduced_to: Option<[usize; 2]>) -> String {

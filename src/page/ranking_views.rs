@@ -76,7 +76,7 @@ pub fn material_views(
     page: &Path,
     progress: &Progress,
 ) -> Result<Vec<MaterialView>, Error> {
-    let convention = report.settings.convention.convention;
+    let look = (&report.settings.convention.convention, report.reading.mask.is_some());
     let chosen = figures.map_or_else(BTreeSet::new, |figures| chosen(report, figures));
     let folder = folder(page);
     if !chosen.is_empty() {
@@ -91,7 +91,7 @@ pub fn material_views(
         let materials = cases.get(&result.index).and_then(|case| opened(report, result, case));
         let view = materials.map_or(Ok(MaterialView::default()), |materials| {
             let figure = chosen.contains(&result.index).then(|| folder.join(file_name(result)));
-            view(&materials, &convention, width, figure.as_deref(), progress)
+            view(&materials, look, width, figure.as_deref(), progress)
         })?;
         progress.step()?;
         Ok::<_, Error>(view)
@@ -154,17 +154,17 @@ fn opened(
     materials[0].is_some().then_some(materials)
 }
 
-/// The pictures of a material; its figure is written to the file of `figure`.
+/// The pictures of a material, under a convention, which may be gray outside of a mask; its figure is written to the file of `figure`.
 fn view(
     all: &[Option<Material<f32>>],
-    convention: &Convention,
+    look: (&Convention, bool),
     width: u32,
     figure: Option<&Path>,
     progress: &Progress,
 ) -> Result<MaterialView, Error> {
     let materials: Vec<&Material<f32>> = all.iter().flatten().collect();
     let small = pictures::reduced(&materials, RENDERED)?;
-    let drawn = convention.drawn();
+    let drawn = look.0.drawn();
     let exposure_ev = exposure(&small[0], &SCENE, &drawn);
     let mut small = small.iter();
     let picture = |one: &Option<Material<f32>>| {
@@ -172,7 +172,7 @@ fn view(
         pictures::thumbnail(small, &SCENE, &drawn, exposure_ev, width, &progress.part()).map(Some)
     };
     let pictures = all.iter().map(picture).collect::<Result<Vec<_>, Error>>()?;
-    let figure = figure.map(|path| write_figure(path, &materials, convention, exposure_ev, progress));
+    let figure = figure.map(|path| write_figure(path, &materials, look, exposure_ev, progress));
     Ok(MaterialView { pictures, figure: figure.transpose()? })
 }
 
@@ -180,12 +180,13 @@ fn view(
 fn write_figure(
     path: &Path,
     materials: &[&Material<f32>],
-    convention: &Convention,
+    (convention, is_masked): (&Convention, bool),
     exposure_ev: f32,
     progress: &Progress,
 ) -> Result<String, Error> {
     let report = PageReport {
         materials,
+        is_masked,
         convention: *convention,
         view: View { scene: SCENE, exposure_ev, display: SessionDisplay::default() },
         findings: None,

@@ -108,6 +108,29 @@ fn losses_in(scene: Scene) -> Vec<f64> {
 }
 
 #[test]
+fn pictures_are_gray_outside_of_a_mask() {
+    let folder = folder();
+    let of = |name: &str| folder.path().join(name);
+    let half = |x: u32, _: u32| Rgb([if x < 4 { 255 } else { 0 }; 3]);
+    RgbImage::from_fn(8, 8, half).save(of("mask.png")).unwrap();
+    for mask in ["", "--mask mask.png"] {
+        let is_masked = !mask.is_empty();
+        succeed(folder.path(), &format!("map gt.png a.png --near 3 --distant 2 -o map.exr {mask}"));
+        for (texel, loss) in image_of_exr(&of("map.exr")).pixels.iter().enumerate() {
+            assert_eq!(loss[0].is_nan(), is_masked && texel % 8 >= 4, "{texel}, {mask}");
+        }
+        let columns = "--columns normal,rendering,rendering:";
+        succeed(folder.path(), &format!("strip gt.png a.png {columns} -o strip.png {mask}"));
+        let strip = image::open(of("strip.png")).unwrap().into_rgb8();
+        let gray = strip.pixels().filter(|pixel| pixel.0 == [128; 3]).count();
+        assert_eq!(gray > strip.pixels().len() / 20, is_masked, "{gray} of {}", strip.pixels().len());
+        succeed(folder.path(), &format!("report gt.png a.png --target-error 10% -o page.html {mask}"));
+        let page = std::fs::read_to_string(of("page.html")).unwrap();
+        assert_eq!(page.contains("Rendering loss over the mask of 32 texels"), is_masked);
+    }
+}
+
+#[test]
 fn the_mean_of_a_difference_is_the_loss_in_that_scene() {
     let folder = folder();
     succeed(folder.path(), "render --difference -o out.exr --view 0.2,-0.3,2 --light -1,0.5,0.8");

@@ -2,15 +2,14 @@
 
 use serde_json::json;
 
-use svbrdf_core::loss::Request;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::line;
 use svbrdf_needs::needs;
-use svbrdf_page::{Findings, PageReport};
+use svbrdf_page::PageReport;
 
 use super::browser::Page;
-use super::noise;
+use super::{findings, noise, report};
 
 pub const NAMES: [&str; 2] = [
     "</script><img src=x onerror=window.hit=1><!--<script>",
@@ -21,14 +20,13 @@ pub const NAMES: [&str; 2] = [
 pub fn report_of(names: [&str; 2]) -> String {
     let [truth, prediction] = [0, 1].map(|i| noise(i as u32).renamed(names[i]));
     let progress = Progress::default();
-    let request = Request::Accuracy { target: 0.05, seed: 0 };
-    let findings = Findings::new(&truth, &[&prediction], PRINTED, &request, &progress).unwrap();
+    let findings = findings([&truth, &prediction], None);
     let materials = [&truth, &prediction];
     let report = PageReport {
         findings: Some(findings),
         readings: names.map(|name| vec![name.to_owned()]).to_vec(),
         command: Some(names.concat()),
-        ..super::report(&materials, PRINTED)
+        ..report(&materials, PRINTED)
     };
     report.page(&progress).unwrap().html
 }

@@ -143,6 +143,19 @@ impl<'a, T> Comparison<'a, T> {
         Self { pilot: false, ..self }
     }
 
+    /// The same comparison of other predictions.
+    ///
+    /// # Errors
+    /// [`Error::SizesDiffer`].
+    pub fn with_predictions<'b>(&self, predictions: &[&'b Material<T>]) -> Result<Comparison<'b, T>, Error>
+    where
+        'a: 'b,
+        T: Real,
+    {
+        predictions.iter().try_for_each(|prediction| check_same_size(self.ground_truth, prediction))?;
+        Ok(Comparison { predictions: predictions.to_vec(), ..*self })
+    }
+
     /// The same comparison, of materials that hold a part of the texels of a larger `grid`: their texel i is at `texels[i]` of it, as
     /// row * width + column. Losses are over the texels that they hold.
     #[must_use]

@@ -8,6 +8,7 @@ use crate::report::{
 };
 use crate::why::{self, MapShare};
 use svbrdf_core::loss::{Estimate, Request};
+use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 
 /// What a map adds to the loss of a prediction, or all maps do.
@@ -157,10 +158,12 @@ impl Analysis for BlameReport {
     type Options = NoOptions;
 
     fn run(input: &AnalysisInput<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
-        let AnalysisInput { ground_truth, convention, request, .. } = input;
-        let attributions = input.each(|prediction| {
-            Ok(why::attribute(ground_truth, prediction, convention, request, progress)?)
+        let attributions = input.comparing(|comparison| {
+            let one = |prediction: &&Material<f32>| {
+                Ok(why::attribute_in(&comparison, prediction, &input.request, progress)?)
+            };
+            comparison.predictions().iter().map(one).collect()
         })?;
-        Ok(Self::new(input.compared(), request, attributions))
+        Ok(Self::new(input.compared(), &input.request, attributions))
     }
 }

@@ -25,7 +25,7 @@ pub struct LossReport {
     pub size: [usize; 2],
     /// How many texels the mask keeps; `None` without one.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) masked: Option<usize>,
+    pub masked: Option<usize>,
     /// Where the convention renders normals as stored, and their lengths differ from 1: that losses are of normalized ones.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,

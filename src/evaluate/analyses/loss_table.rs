@@ -3,8 +3,8 @@
 use super::loss::{FewScenes, LossDifference, LossReport, PredictionLoss};
 use crate::error::Error;
 use crate::report::{
-    Analysis, AnalysisInput, Cell, Field, NoOptions, Reader, Report, Table, missed_by_any, scenes_line,
-    stored_normals_note,
+    Analysis, AnalysisInput, Cell, Compared, Field, NoOptions, Reader, Report, Table, in_mask, missed_by_any,
+    scenes_line, stored_normals_note,
 };
 use svbrdf_core::loss::Compute;
 use svbrdf_core::progress::Progress;
@@ -77,7 +77,7 @@ impl Report for LossReport {
     fn heading(&self) -> String {
         let Self { convention, epsilon, ground_truth, size, precision, outcome, .. } = self;
         let [width, height] = size;
-        let masked = self.masked.map_or(String::new(), |kept| format!(", {kept} in the mask"));
+        let masked = in_mask(self.masked);
         format!(
             "rendering loss against {ground_truth}, {width} x {height} texels{masked}, {precision}\n\
              convention {convention}, epsilon {epsilon}\n{}",
@@ -174,8 +174,8 @@ impl LossReport {
         let AnalysisInput { request, few_scenes, paths, storages, convention, .. } = input;
         let mut report =
             input.comparing(|comparison| Ok(Self::answer(&comparison, request, *few_scenes, progress)?))?;
-        let masked = input.mask.as_ref().map(|mask| mask.texels().len());
-        (report.size, report.masked) = (input.ground_truth.size(), masked);
+        let Compared { size, masked, .. } = input.compared();
+        (report.size, report.masked) = (size, masked);
         report.note = stored_normals_note(convention, storages.iter().copied());
         Ok(report.read_from(paths))
     }

@@ -73,7 +73,7 @@ impl Analysis for MapReport {
     type Options = NoOptions;
 
     fn run(input: &AnalysisInput<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
-        let AnalysisInput { ground_truth, predictions, convention, request, mask, .. } = input;
+        let AnalysisInput { predictions, convention, request, mask, .. } = input;
         let scenes = request.scenes(convention)?.unwrap_or_default();
         let maps = |comparison: Comparison<'_, f32>| {
             Ok(why::error_maps(&comparison.without_pilot(), &scenes, progress)?)
@@ -85,7 +85,7 @@ impl Analysis for MapReport {
         }
         let names = predictions.iter().map(|prediction| prediction.name().to_owned());
         Ok(Self {
-            compared: Compared::new(ground_truth, convention),
+            compared: input.compared(),
             shows: format!("mean {} of each texel over {} scenes", convention.norm().of_term(), scenes.len()),
             results: names
                 .zip(means)

@@ -52,7 +52,7 @@ pub fn robust(
     enough(materials.len(), settings)?;
     let Convention { name: convention, epsilon, .. } = settings.convention.convention;
     let ground_truth = settings.source.path().display().to_string();
-    let compared = Compared { ground_truth, size: [0; 2], convention, epsilon };
+    let compared = Compared { ground_truth, size: [0; 2], masked: None, convention, epsilon };
     Ok(RobustReport::of_answers(compared, materials, &settings.methods, &over_materials(&all)))
 }
 

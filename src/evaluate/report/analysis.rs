@@ -36,7 +36,8 @@ pub struct AnalysisInput<'a, T: Real = f32> {
 impl<T: Real> AnalysisInput<'_, T> {
     /// The settings of a report.
     pub fn compared(&self) -> Compared {
-        Compared::new(self.ground_truth, &self.convention)
+        let masked = self.mask.as_ref().map(|mask| mask.texels().len());
+        Compared { masked, ..Compared::new(self.ground_truth, &self.convention) }
     }
 
     /// What `of` computes for each prediction.

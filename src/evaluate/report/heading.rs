@@ -22,6 +22,9 @@ pub struct Compared {
     /// Width and height in texels.
     #[serde(skip)]
     pub size: [usize; 2],
+    /// How many texels the mask keeps; `None` without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub masked: Option<usize>,
     /// The name of the convention.
     pub convention: &'static str,
     pub epsilon: f64,
@@ -33,6 +36,7 @@ impl Compared {
         Self {
             ground_truth: ground_truth.name().to_owned(),
             size: ground_truth.size(),
+            masked: None,
             convention: convention.name,
             epsilon: convention.epsilon,
         }
@@ -40,11 +44,17 @@ impl Compared {
 
     /// The lines above a table of `content`, such as "rendering loss".
     pub fn heading(&self, content: &str) -> String {
-        let Self { ground_truth, size: [width, height], convention, epsilon } = self;
+        let Self { ground_truth, size: [width, height], convention, epsilon, .. } = self;
+        let masked = in_mask(self.masked);
         format!(
-            "{content} against {ground_truth}, {width} x {height} texels\nconvention {convention}, epsilon {epsilon}\n"
+            "{content} against {ground_truth}, {width} x {height} texels{masked}\nconvention {convention}, epsilon {epsilon}\n"
         )
     }
+}
+
+/// How many texels a mask keeps, as it follows their number.
+pub(crate) fn in_mask(masked: Option<usize>) -> String {
+    masked.map_or_else(String::new, |kept| format!(", {kept} in the mask"))
 }
 
 /// The numbers of scenes, how they were sampled and the texels of each, for materials of `size`: a line. `None` for `sampling`: the

@@ -33,6 +33,7 @@ pub use analysis::{
     Analysis, AnalysisInput, AnalysisOption, NoOptions, OptionValue, SCENE_OPTIONS, Schematic,
 };
 pub use conform::ConformReport;
+pub(crate) use heading::in_mask;
 pub use heading::{
     Compared, Repetition, floor_line, missed, missed_by_any, position, scenes_line, stored_normals_note,
 };

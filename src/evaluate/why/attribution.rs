@@ -85,9 +85,22 @@ pub fn attribute<T: Compute>(
     request: &Request,
     progress: &Progress,
 ) -> Result<Attribution, Error> {
-    let comparison =
-        Comparison::new(ground_truth, &[prediction], *convention)?.without_pilot().at_most(MOST_SCENES);
-    let mut outcome = comparison.run(request, progress)?;
+    attribute_in(&Comparison::new(ground_truth, &[prediction], *convention)?, prediction, request, progress)
+}
+
+/// The same of a prediction of a comparison, on the texels that it compares.
+///
+/// # Errors
+/// As [`attribute`].
+pub fn attribute_in<T: Compute>(
+    comparison: &Comparison<'_, T>,
+    prediction: &Material<T>,
+    request: &Request,
+    progress: &Progress,
+) -> Result<Attribution, Error> {
+    let ground_truth = comparison.ground_truth();
+    let alone = comparison.with_predictions(&[prediction])?.without_pilot().at_most(MOST_SCENES);
+    let mut outcome = alone.run(request, progress)?;
     let mut values = vec![Vec::new(); SETS];
     values[0] = vec![0.0; outcome.scenes.len()];
     let loss = outcome.losses.remove(0);
@@ -101,8 +114,7 @@ pub fn attribute<T: Compute>(
         let mixed = mixtures(ground_truth, prediction, sets)?;
         // The prediction decides which texels are sampled, and is compared again for that.
         let compared: Vec<_> = mixed.iter().chain([prediction]).collect();
-        let comparison = Comparison::new(ground_truth, &compared, *convention)?.without_pilot();
-        let losses = comparison.run(&again, progress)?.losses;
+        let losses = alone.with_predictions(&compared)?.run(&again, progress)?.losses;
         for (&set, loss) in sets.iter().zip(losses) {
             values[set] = loss.per_scene;
         }

@@ -24,7 +24,7 @@ mod cloud;
 mod scene_losses;
 mod worst;
 
-pub use attribution::{Attribution, MOST_SCENES, MapShare, attribute};
+pub use attribution::{Attribution, MOST_SCENES, MapShare, attribute, attribute_in};
 pub use scene_losses::{Distribution, RankedScene, worst_first, worst_on_all_texels};
 pub use worst::{TAIL, Worst, worst};
 
