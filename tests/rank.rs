@@ -151,12 +151,10 @@ pub fn result(index: usize, losses: &[(&str, Option<f64>)]) -> MaterialResult {
     let prediction = |(place, (method, loss)): (usize, &(&str, Option<f64>))| PredictionResult {
         method: (*method).to_owned(),
         sample: losses[..place].iter().filter(|(earlier, _)| earlier == method).count(),
-        path: String::new(),
         known: loss.map(known),
         error: loss.is_none().then(|| "broken".to_owned()),
-        reading: Vec::new(),
         metrics: loss.map(|loss| ("rmse_roughness".to_owned(), loss)).into_iter().collect(),
-        marks: None,
+        ..PredictionResult::default()
     };
     let (material, predictions) = (format!("m{index}"), losses.iter().enumerate().map(prediction).collect());
     MaterialResult { index, material, seed: 0, reading: Vec::new(), floor: None, predictions }

@@ -44,7 +44,7 @@ pub fn version(verbose: bool) -> String {
 fn facts() -> [(&'static str, String); 6] {
     let threads = thread::available_parallelism().map_or(1, usize::from);
     [
-        ("commit", option_env!("SVBRDF_COMMIT").unwrap_or("unknown").to_owned()),
+        ("commit", super::output::COMMIT.unwrap_or("unknown").to_owned()),
         ("build", env!("SVBRDF_PROFILE").to_owned()),
         ("features", features()),
         ("platform", env!("SVBRDF_TARGET").to_owned()),

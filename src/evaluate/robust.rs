@@ -11,7 +11,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::statistics::order;
 
 use crate::error::Error;
-use crate::report::{Cell, Compared, Field, Reader, Report, Table, escaped, latex};
+use crate::report::{Cell, Compared, Field, Reader, Report, Table, escaped, float, latex, sentences};
 
 /// Scenes of a question about one kind of them, and texels of each.
 const SCENES: usize = 2048;
@@ -206,7 +206,11 @@ impl RobustReport {
     /// A table for a paper.
     pub fn latex(&self) -> String {
         let row = |asked: &AskedQuestion| format!("{} & {:.2} \\\\\n", escaped(&asked.question), asked.tau);
-        latex("lr", "Question & $\\tau$", &self.questions.iter().map(row).collect::<String>())
+        let rows: String = self.questions.iter().map(row).collect();
+        float(
+            &escaped(&sentences(&self.heading())),
+            &latex("lr", "Question & $\\tau$ to the default order", &rows),
+        )
     }
 }
 

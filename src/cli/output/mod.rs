@@ -16,6 +16,9 @@ use svbrdf_core::text::{printable, quoted};
 use svbrdf_evaluate::report::{Report, Views};
 use svbrdf_files::disk::signals;
 
+/// The commit that the program is built from, in release builds.
+pub const COMMIT: Option<&str> = option_env!("SVBRDF_COMMIT");
+
 /// The command line of this process, quoted for a shell.
 pub fn command_line() -> String {
     let arguments = std::env::args_os().skip(1).map(quoted);

@@ -17,7 +17,7 @@ use super::args::{DataSetArgs, OutputArgs, RankArgs, RankFormat, check_limit, re
 use super::cases::{reading, source};
 use crate::cli::args::{Specified, refuse};
 use crate::cli::job::{Job, NewJob};
-use crate::cli::output::{CommandError, exit, stoppable, warn_of, watched_on};
+use crate::cli::output::{COMMIT, CommandError, exit, stoppable, warn_of, watched_on};
 
 /// A ranking of methods over a data set.
 #[derive(Debug)]
@@ -180,6 +180,7 @@ impl ManyJob {
             exit::tell(&format!("note: {material}, {prediction}: {problem}"));
         }
         let mut report = DatasetReport::new(settings.clone(), reading, results, *pick);
+        report.repetition = report.repetition.at(COMMIT);
         if is_table {
             report.files = dataset::digests(cases, progress)?;
         }

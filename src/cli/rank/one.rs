@@ -10,7 +10,7 @@ use svbrdf_evaluate::robust::RobustReport;
 use super::args::{DataSetArgs, OutputArgs, RankArgs, RankFormat, check_limit, refuse_scenes};
 use crate::cli::args::{Specified, refuse};
 use crate::cli::job::{self, ComparisonJob, Job, NewJob, OpenedMaterials, SessionSettings};
-use crate::cli::output::{CommandError, command_line, warn_of, watched};
+use crate::cli::output::{COMMIT, CommandError, command_line, warn_of, watched};
 
 /// A ranking of the predictions of one ground truth.
 #[derive(Debug)]
@@ -66,7 +66,7 @@ impl Job for OneJob {
         }
         let mut report =
             watched(RankReport::DOING, |progress| RankReport::run(&input, &NoOptions {}, progress))?;
-        report.repetition = Some(Repetition::new(command_line()));
+        report.repetition = Some(Repetition::new(command_line()).at(COMMIT));
         report.readings = readings(&opened);
         output.put(&report, RankReport::latex)?;
         warn_of(report.missed(), materials.strict)?;

@@ -7,7 +7,8 @@ use crate::error::Error;
 use crate::rank::{self, RankedPrediction, places};
 use crate::report::{
     Analysis, AnalysisInput, Cell, Compared, Field, NoOptions, Reader, Repetition, Report, Table, bold,
-    escaped, floor_line, latex, missed_by_any, scenes_line,
+    comments, digits, escaped, float, floor_line, interval, latex, missed_by_any, number, scenes_line,
+    sentences,
 };
 use svbrdf_core::loss::{Estimate, Outcome, Request};
 use svbrdf_core::progress::Progress;
@@ -113,12 +114,22 @@ impl RankReport {
     /// A table for a paper: the first group in bold.
     pub fn latex(&self) -> String {
         let row = |place: &RankedPrediction| {
-            let [low, high] = place.loss.interval95.unwrap_or([f64::NAN; 2]);
-            let mean = bold(&format!("{:.4}", place.loss.mean), place.group == 1);
-            format!("{} & {mean} & [{low:.4}, {high:.4}] \\\\\n", escaped(&place.prediction))
+            let digits_of = |of: &Estimate| digits(of.mean, of.interval95);
+            let ends =
+                |of: &Estimate| of.interval95.map_or("--".to_owned(), |known| interval(known, digits_of(of)));
+            let mean = |of: &Estimate| number(of.mean, digits_of(of));
+            let loss = bold(&mean(&place.loss), place.group == 1);
+            let to_best = place
+                .to_best
+                .map_or("--".to_owned(), |to_best| format!("{} {}", mean(&to_best), ends(&to_best)));
+            format!("{} & {loss} & {} & {to_best} \\\\\n", escaped(&place.prediction), ends(&place.loss))
         };
         let rows: String = self.ranking.iter().map(row).collect();
-        latex("lrl", "Prediction & Loss & 95\\% interval", &rows)
+        let heading = "Prediction & Loss $\\downarrow$ & 95\\% interval & Difference to best";
+        let caption = sentences(&self.heading)
+            + "Intervals over scenes, 95%; bold: the best and what cannot be told from it.";
+        comments(self.repetition.iter().map(Repetition::to_string))
+            + &float(&escaped(&caption), &latex("lrll", heading, &rows))
     }
 }
 

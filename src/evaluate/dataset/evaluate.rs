@@ -254,10 +254,12 @@ impl<'a> Evaluation<'a> {
         let marks = pair.filter(|_| self.settings.diagnose);
         let marks = marks.map(|pair| self.marks(pair, floor, seed)).transpose()?;
         let known = pair.map(|pair| self.loss(pair, kept, seed)).transpose()?;
+        let size = pair.map(|(truth, _)| truth.material.size());
         // `open` gives the problem of the ground truth, too.
         let error = opened.found.err();
         let reading = opened.remarks;
         Ok(PredictionResult {
+            size,
             known,
             error,
             reading,
@@ -346,6 +348,5 @@ impl<'a> Evaluation<'a> {
 fn without_loss(candidate: &CandidateFile, problem: String) -> PredictionResult {
     let CandidateFile { method, sample, path, .. } = candidate.clone();
     let path = path.display().to_string();
-    let (error, metrics) = (Some(problem), BTreeMap::new());
-    PredictionResult { method, sample, path, known: None, error, reading: Vec::new(), metrics, marks: None }
+    PredictionResult { method, sample, path, error: Some(problem), ..PredictionResult::default() }
 }

@@ -1,28 +1,28 @@
 //! Tables of a data set for papers.
 
-use svbrdf_core::text::line;
+use std::collections::BTreeSet;
 
 use super::metric_summary::{MetricRow, best_by_metric, is_better_larger, method_title};
 use super::record::DatasetSettings;
 use super::summary::{DatasetReport, FEW, MethodSummary};
-use crate::protocols::Row;
-use crate::report::{bold, escaped, float, latex};
+use crate::protocols::{Aggregate, Row};
+use crate::report::{bold, comments, digits, escaped, float, interval, latex, number};
 
 impl DatasetReport {
     /// Tables for a paper: the best methods in bold, and the same of the metrics. What the numbers depend on is a comment above.
     pub fn latex(&self) -> String {
         let row = |summary: &MethodSummary| {
-            let number = |value: f64| if value.is_nan() { "--".to_owned() } else { format!("{value:.4}") };
-            let mean = bold(&number(summary.mean), summary.ties_with_best);
-            let interval = summary
-                .interval95_materials
-                .map_or(FEW.to_owned(), |[low, high]| format!("[{low:.4}, {high:.4}]"));
-            let method = escaped(&summary.method);
-            format!(
-                "{method} & {mean} & {interval} & {} & {} \\\\\n",
-                number(summary.median),
-                summary.count()
-            )
+            let MethodSummary { mean, interval95_materials: known, interval95_scenes, .. } = summary;
+            let digits = digits(*mean, known.or(Some(*interval95_scenes)));
+            let cells = [
+                escaped(&summary.method),
+                bold(&number(*mean, digits), summary.ties_with_best),
+                known.map_or(FEW.to_owned(), |known| interval(known, digits)),
+                number(summary.median, digits),
+                difference(summary, digits),
+                summary.count(),
+            ];
+            cells.join(" & ") + " \\\\\n"
         };
         let (compared, lacking): (Vec<_>, Vec<_>) = self.methods.iter().partition(|summary| summary.compared);
         let mut rows: String = compared.into_iter().map(row).collect();
@@ -31,17 +31,21 @@ impl DatasetReport {
             rows.extend(lacking.into_iter().map(row));
         }
         let files = self.files.iter().map(|(whose, sha256)| format!("sha256 {sha256} {whose}"));
-        let comments = self.conditions().into_iter().chain(files).chain([self.repetition.to_string()]);
-        let comments: String = comments.map(|comment| format!("% {}\n", line(&comment))).collect();
-        let losses = latex("lrlrr", "Method & Mean loss & 95\\% interval & Median & Materials", &rows);
-        comments + &float(&escaped(&self.caption()), &(losses + &latex_table(self)))
+        let lines = self.conditions().into_iter().chain(files).chain([self.repetition.to_string()]);
+        let heading =
+            "Method & Mean loss $\\downarrow$ & 95\\% interval & Median & Difference to best & Materials";
+        let losses = latex("lrlrlr", heading, &rows);
+        comments(lines) + &float(&escaped(&self.caption()), &(losses + &latex_table(self)))
     }
 
     /// What the numbers depend on, for the caption of a table.
     fn caption(&self) -> String {
         let DatasetSettings { convention, protocol, .. } = &self.settings;
         let protocol = protocol.as_ref().map_or(String::new(), |protocol| {
-            let metric = |row: &Row| format!("{} is {}", row.label, row.metric);
+            let metric = |row: &Row| {
+                let mean = if row.over_materials == Aggregate::Median { "median " } else { "" };
+                format!("{} is {mean}{}", row.label, words(&row.summary()))
+            };
             let metrics: Vec<String> = protocol.metrics.iter().map(metric).collect();
             format!(" Protocol {}: {}.", protocol.name, metrics.join(", "))
         });
@@ -51,13 +55,38 @@ impl DatasetReport {
         let decided: String = self.reading.decisions.iter().map(|decision| format!(" {decision}.")).collect();
         let decided = if registrations.is_empty() { decided } else { registrations };
         format!(
-            "Rendering loss over {} materials: convention {convention}, epsilon {}, {}.{protocol}{masked}{decided} \
-             Intervals over materials, 95%; bold: the best and what cannot be told from it.",
+            "Rendering loss over {} materials{}: convention {convention}, epsilon {}, {}.{protocol}{masked}{decided} \
+             Intervals over materials, 95%, and paired differences; bold: the best and what cannot be told from it.",
             self.compared_materials.len(),
+            self.sizes(),
             convention.convention.epsilon,
             self.settings.scenes.description(self.settings.seed),
         )
     }
+
+    /// The sizes of the maps that are compared, behind the number of materials.
+    fn sizes(&self) -> String {
+        let compared = self.predictions().filter(|(result, one)| self.is_compared(result, one));
+        let sizes: BTreeSet<[usize; 2]> = compared.filter_map(|(_, one)| one.size).collect();
+        let [first, last] = [sizes.first(), sizes.last()].map(|size| size.map(|[w, h]| format!("{w} x {h}")));
+        match first.zip(last) {
+            None => String::new(),
+            Some((first, last)) if first == last => format!(" of {first} texels"),
+            Some((first, last)) => format!(" of {first} to {last} texels"),
+        }
+    }
+}
+
+/// The mean of the paired differences to the best method, with its interval; of few materials on how many it is worse.
+fn difference(summary: &MethodSummary, of_mean: usize) -> String {
+    let Some(mean) = summary.to_best else { return "--".to_owned() };
+    if let Some(known) = summary.to_best_interval95_materials {
+        let digits = digits(mean, Some(known));
+        return format!("{} {}", number(mean, digits), interval(known, digits));
+    }
+    let signs =
+        summary.worse_on.map_or(String::new(), |[worse, all]| format!(" (worse on {worse} of {all})"));
+    number(mean, of_mean) + &signs
 }
 
 /// The means over materials as a LaTeX table with a column for each method: in bold the best one and what ties with it. Empty
@@ -71,7 +100,7 @@ fn latex_table(report: &DatasetReport) -> String {
     let line = |(row, best): (&MetricRow, &Vec<bool>)| {
         let cell = |(method, &best): (&MethodSummary, &bool)| {
             row.value(method)
-                .map_or("--".to_owned(), |(value, interval)| bold(&number(value, interval), best))
+                .map_or("--".to_owned(), |(value, known)| bold(&number(value, digits(value, known)), best))
         };
         let cells: Vec<String> = methods.iter().zip(best).map(cell).collect();
         let arrow = if is_better_larger(&row.metric) { "$\\uparrow$" } else { "$\\downarrow$" };
@@ -114,23 +143,12 @@ fn words(metric: &str) -> String {
     format!("{measure}{of}{unit}")
 }
 
-/// A number in LaTeX, to two digits of its interval.
-fn number(value: f64, interval: Option<[f64; 2]>) -> String {
-    if value.is_infinite() {
-        return "$\\infty$".to_owned();
-    }
-    let reach = interval.map_or(0.0, |[low, high]| (high - low) / 2.0);
-    let digits =
-        if reach > 1e-5 * value.abs() { (1.0 - reach.log10().floor()).clamp(0.0, 6.0) as usize } else { 4 };
-    format!("{value:.digits$}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn rows_of_a_paper_have_words_units_and_two_digits_of_the_interval() {
+    fn metrics_of_a_paper_have_words_and_units() {
         for (metric, expected) in [
             ("rmse_normal_stored", "RMSE of normal, as stored"),
             ("psnr_base_colour_srgb", "PSNR of base colour, sRGB (dB)"),
@@ -139,14 +157,6 @@ mod tests {
             ("rmse_diffuse_linear_minus1_to_1", "RMSE of diffuse, linear, in [-1, 1]"),
         ] {
             assert_eq!(words(metric), expected);
-        }
-        for (value, interval, expected) in [
-            (0.049_913, Some([0.043_1, 0.057_6]), "0.0499"),
-            (21.137, Some([20.1, 22.9]), "21.1"),
-            (0.5, None, "0.5000"),
-            (f64::INFINITY, None, "$\\infty$"),
-        ] {
-            assert_eq!(number(value, interval), expected);
         }
     }
 }

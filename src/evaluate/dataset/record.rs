@@ -230,6 +230,9 @@ pub struct PredictionResult {
     pub method: String,
     pub sample: usize,
     pub path: String,
+    /// Width and height of what is compared, in texels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<[usize; 2]>,
     /// `None` where it has no loss.
     #[serde(flatten)]
     pub known: Option<KnownLoss>,

@@ -201,12 +201,12 @@ impl DatasetReport {
     }
 
     /// Every prediction with its material.
-    fn predictions(&self) -> impl Iterator<Item = (&MaterialResult, &PredictionResult)> {
+    pub(super) fn predictions(&self) -> impl Iterator<Item = (&MaterialResult, &PredictionResult)> {
         self.results.iter().flat_map(|result| result.predictions.iter().map(move |one| (result, one)))
     }
 
     /// Whether the loss of a prediction is a part of a mean that is compared.
-    fn is_compared(&self, result: &MaterialResult, prediction: &PredictionResult) -> bool {
+    pub(super) fn is_compared(&self, result: &MaterialResult, prediction: &PredictionResult) -> bool {
         let is_of = |summary: &&MethodSummary| summary.method == prediction.method;
         let method = self.methods.iter().find(is_of);
         let counts =

@@ -51,8 +51,10 @@ fn without_pictures(line: &str) -> String {
 fn in_line(line: usize, written: &str, computed: &str) -> Vec<TableDifference> {
     let [a, b] = [written, computed].map(words);
     let is_number = |word: &str| word.contains('.') && word.chars().all(|c| c.is_ascii_digit() || c == '.');
+    // Behind it may stand a commit.
+    let version = |word: &str| is_number(word.split('+').next().unwrap_or_default());
     let is_version = |index: usize| {
-        let follows = |words: &[&str]| index > 0 && words[index - 1] == "svbrdf" && is_number(words[index]);
+        let follows = |words: &[&str]| index > 0 && words[index - 1] == "svbrdf" && version(words[index]);
         follows(&a) && follows(&b)
     };
     let whole = |written: &str, computed: &str, share| TableDifference {
@@ -75,7 +77,7 @@ fn in_line(line: usize, written: &str, computed: &str) -> Vec<TableDifference> {
 }
 
 fn words(line: &str) -> Vec<&str> {
-    line.split(|c: char| c.is_whitespace() || ",;:()[]{}&<>\"=|".contains(c))
+    line.split(|c: char| c.is_whitespace() || ",;:()[]{}&<>\"=|$".contains(c))
         .filter(|w| !w.is_empty())
         .collect()
 }

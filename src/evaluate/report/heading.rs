@@ -131,8 +131,8 @@ pub fn missed_by_any<'a>(
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Repetition {
-    /// The program and its version.
-    pub software: &'static str,
+    /// The program and its version, with the commit that it is built from where that is known.
+    pub software: String,
     /// The command line.
     pub command: String,
 }
@@ -140,7 +140,14 @@ pub struct Repetition {
 impl Repetition {
     /// By `command` and this version of the program.
     pub fn new(command: String) -> Self {
-        Self { software: SOFTWARE, command }
+        Self { software: SOFTWARE.to_owned(), command }
+    }
+
+    /// The same by a program that is built from this commit, of which the beginning is named.
+    #[must_use]
+    pub fn at(self, commit: Option<&str>) -> Self {
+        let commit = commit.map_or(String::new(), |commit| format!("+{commit:.12}"));
+        Self { software: self.software + &commit, ..self }
     }
 }
 

@@ -38,7 +38,7 @@ pub use heading::{
     Compared, Repetition, floor_line, missed, missed_by_any, position, scenes_line, stored_normals_note,
 };
 pub use info::InfoReport;
-pub use latex::{bold, escaped, float, latex};
+pub use latex::{bold, comments, digits, escaped, float, interval, latex, number, sentences};
 pub use names::distinct_names;
 pub use table::{Cell, Field, Reader, Table};
 
