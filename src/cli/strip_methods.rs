@@ -22,8 +22,6 @@ use crate::cli::rank::cases;
 
 /// A millimetre in points.
 const MILLIMETRE: f64 = 72.0 / 25.4;
-/// The least step of a figure that becomes narrower.
-const LESS: f64 = 0.99;
 /// Pixels of an inch in a cell: as printed.
 const DPI: f64 = 300.0;
 
@@ -129,17 +127,16 @@ impl MethodsJob {
         let methods = &settings.methods;
         let materials: &Vec<String> = &cases.iter().map(|case| case.material.clone()).collect();
         let row = |index: usize| self.row(&cases[index], losses.get(index));
-        let drawn = |strip: &MethodStrip| {
-            watched_on(progress, "rendering", |progress| strip.figure(methods, materials, row, progress))
+        let strip = match self.height_mm {
+            None => strip,
+            Some(most) => {
+                let size = |case| Some(self.opened(case).materials.first()?.as_ref().ok()?.size());
+                let sizes: Vec<_> = cases.iter().map(size).collect();
+                &strip.within(most, (methods, materials), &sizes, results.is_some())?
+            }
         };
-        let mut figure = drawn(strip)?;
-        let limit = self.height_mm.map(|height| height * MILLIMETRE);
-        while let Some(most) = limit.filter(|most| figure.size[1] > *most) {
-            // Texts do not shrink, so that it takes more than one step.
-            let width = figure.size[0] * (most / figure.size[1]).min(LESS) / MILLIMETRE;
-            let paper = Paper { width_mm: Some(width), ..strip.paper };
-            figure = drawn(&MethodStrip { paper, ..strip.clone() })?;
-        }
+        let figure =
+            watched_on(progress, "rendering", |progress| strip.figure(methods, materials, row, progress))?;
         let height_mm = figure.size[1] / MILLIMETRE;
         if height_mm > PAGE_MM {
             exit::tell(&format!(
@@ -152,12 +149,16 @@ impl MethodsJob {
         unkept.map_or(Ok(()), |problem| Err(CommandError::Failed(problem)))
     }
 
+    fn opened(&self, case: &Case) -> CaseMaterials {
+        let of_method = |method: &String| case.candidates.iter().find(|one| one.method == *method);
+        let candidates: Vec<_> = self.settings.methods.iter().map(of_method).collect();
+        dataset::materials_of(case, &candidates, &self.reading)
+    }
+
     /// A row; what cannot be read is told, and missing in the figure.
     fn row(&self, case: &Case, losses: Option<&MaterialResult>) -> MethodRow {
         let methods = &self.settings.methods;
-        let of_method = |method: &String| case.candidates.iter().find(|one| one.method == *method);
-        let candidates: Vec<_> = methods.iter().map(of_method).collect();
-        let CaseMaterials { materials, mask } = dataset::materials_of(case, &candidates, &self.reading);
+        let CaseMaterials { materials, mask } = self.opened(case);
         let names = std::iter::once("ground truth").chain(methods.iter().map(String::as_str));
         let known = |(found, name): (Result<Material<f32>, String>, &str)| {
             let tell = |problem| exit::tell(&format!("note: {}, {name}: {problem}", case.material));

@@ -73,6 +73,13 @@ pub enum Error {
     )]
     FigureTooNarrow { width_mm: f64, columns: usize, text_pt: f64, least: f64 },
 
+    /// The rows of a figure have no room in its height.
+    #[error(
+        "a figure of {rows} rows with texts of {text_pt} pt cannot be {height_mm} mm high: expected at least {least:.0} mm; give it more \
+        height, fewer materials or smaller text"
+    )]
+    FigureTooHigh { height_mm: f64, rows: usize, text_pt: f64, least: f64 },
+
     /// A page that programs refuse to open.
     #[error("a PDF page of {:.0} x {:.0} mm is too large: expected at most {most:.0} mm; show fewer materials or methods, or \
         write SVG or PNG", millimetres[0], millimetres[1])]

@@ -16,10 +16,12 @@ use super::legend::{self, content_name, scene_text, stops};
 use super::sheet::{Division, GAP, Paper, SMALL, Sheet, style};
 use crate::disk::memory;
 use crate::error::Error;
-use crate::export::figure::{Anchor, Figure};
+use crate::export::figure::{Anchor, Figure, MILLIMETRE};
 
 /// The place of a prediction that is not there.
 const MISSING: [u8; 3] = [224; 3];
+/// Steps in which the width of a figure of a given height is found.
+const HALVINGS: usize = 32;
 /// Points of an inch.
 const INCH: f64 = 72.0;
 
@@ -65,32 +67,94 @@ impl MethodStrip {
         progress: &Progress,
     ) -> Result<Figure, Error> {
         progress.begin(materials.len() as u64);
-        let heads: Vec<Vec<(String, f64)>> = std::iter::once("ground truth")
-            .chain(methods.iter().map(String::as_str))
-            .map(|head| vec![(head.to_owned(), 1.0)])
-            .collect();
-        let sheet = Sheet::new(self.paper, heads.len(), materials, !self.crops.is_empty())?;
-        let side = self.side(&sheet);
-        let what = || format!("a figure of {} x {} cells of {side} pixels", materials.len(), heads.len());
-        let _reserved = memory::reserve((3 * side * side * heads.len() * materials.len()) as u64, what)?;
-        let mut figure = Figure::new([sheet.width, 0.0], self.dpi / INCH);
-        let mut top = sheet.headings(&mut figure, &heads);
+        let (sheet, mut figure, mut top) = self.headed(methods, materials)?;
+        let (side, [rows, columns]) = (self.side(&sheet), [materials.len(), 1 + methods.len()]);
+        let what = || format!("a figure of {rows} x {columns} cells of {side} pixels");
+        let _reserved = memory::reserve((3 * side * side * rows * columns) as u64, what)?;
         for (index, name) in materials.iter().enumerate() {
             top = self.draw_row(&mut figure, &sheet, top, (name, &row(index)), progress)?;
             progress.step()?;
         }
+        self.end(&mut figure, &sheet, top);
+        Ok(figure)
+    }
+
+    /// The same figure, as narrow as a height in millimetres takes. `sizes` are those of the ground truths, `None` where there is none;
+    /// `has_texts`: whether there are texts below the cells.
+    ///
+    /// # Errors
+    /// [`Error::FigureTooHigh`]; those of [`MethodStrip::figure`] but of its pictures.
+    pub fn within(
+        &self,
+        height_mm: f64,
+        (methods, materials): (&[String], &[String]),
+        sizes: &[Option<[usize; 2]>],
+        has_texts: bool,
+    ) -> Result<Self, Error> {
+        let millimetres = |strip: &Self| {
+            let size = strip.size((methods, materials), sizes, has_texts)?;
+            Ok::<_, Error>(size.map(|side| side / MILLIMETRE))
+        };
+        let [width, mut least] = millimetres(self)?;
+        if least <= height_mm {
+            return Ok(self.clone());
+        }
+        let (mut found, mut ends) = (None, [0.0, width]);
+        for _ in 0..HALVINGS {
+            let width = 0.5 * (ends[0] + ends[1]);
+            let narrower = Self { paper: Paper { width_mm: Some(width), ..self.paper }, ..self.clone() };
+            match millimetres(&narrower) {
+                Ok([_, height]) if height > height_mm => {
+                    least = least.min(height);
+                    ends[1] = width;
+                }
+                Ok(_) => {
+                    found = Some(narrower);
+                    ends[0] = width;
+                }
+                Err(Error::FigureTooNarrow { .. }) => ends[0] = width,
+                Err(other) => return Err(other),
+            }
+        }
+        let (rows, text_pt) = (materials.len(), self.paper.text_pt);
+        found.ok_or(Error::FigureTooHigh { height_mm, rows, text_pt, least: least.ceil() })
+    }
+
+    /// Width and height in points.
+    fn size(
+        &self,
+        (methods, materials): (&[String], &[String]),
+        sizes: &[Option<[usize; 2]>],
+        has_texts: bool,
+    ) -> Result<[f64; 2], Error> {
+        let (sheet, mut figure, mut top) = self.headed(methods, materials)?;
+        let side = self.side(&sheet);
+        for size in sizes {
+            let cell = size.map_or([side; 2], |size| self.reduced_size(size, side));
+            top += row_height(&sheet, &Division::new(cell, &self.crops, sheet.column)?, has_texts);
+        }
+        self.end(&mut figure, &sheet, top);
+        Ok(figure.size)
+    }
+
+    /// A figure with the names of its columns, and the top of its first row.
+    fn headed(&self, methods: &[String], materials: &[String]) -> Result<(Sheet, Figure, f64), Error> {
+        let heads = std::iter::once("ground truth").chain(methods.iter().map(String::as_str));
+        let heads: Vec<Vec<(String, f64)>> = heads.map(|head| vec![(head.to_owned(), 1.0)]).collect();
+        let sheet = Sheet::new(self.paper, heads.len(), materials, !self.crops.is_empty())?;
+        let mut figure = Figure::new([sheet.width, 0.0], self.dpi / INCH);
+        let top = sheet.headings(&mut figure, &heads);
+        Ok((sheet, figure, top))
+    }
+
+    /// Ends a figure with what is below its rows.
+    fn end(&self, figure: &mut Figure, sheet: &Sheet, mut top: f64) {
         if let Some(difference) = self.content.difference {
-            legend::draw(
-                &mut figure,
-                [sheet.left(1), top],
-                sheet.column.max(8.0 * sheet.em),
-                sheet.em,
-                difference,
-            );
+            let width = sheet.column.max(8.0 * sheet.em);
+            legend::draw(figure, [sheet.left(1), top], width, sheet.em, difference);
             top += (legend::HEIGHT + GAP) * sheet.em;
         }
-        figure.size[1] = sheet.note(&mut figure, top, &self.note());
-        Ok(figure)
+        figure.size[1] = sheet.note(figure, top, &self.note());
     }
 
     /// Pixels of a cell without insets.
@@ -129,8 +193,7 @@ impl MethodStrip {
             let size = SMALL * sheet.em;
             figure.text([sheet.left(column), below], sheet.column, text, style(size, Anchor::Left));
         }
-        let texts = if row.texts.is_empty() { 0.0 } else { 1.2 * SMALL * sheet.em };
-        Ok(below + texts + GAP * sheet.em)
+        Ok(top + row_height(sheet, &division, !row.texts.is_empty()))
     }
 
     fn cells(&self, row: &MethodRow, side: usize, progress: &Progress) -> Result<Vec<Image<u8>>, Error> {
@@ -178,12 +241,17 @@ impl MethodStrip {
 
     /// The material with sides of at most `side`; with crops the material.
     fn reduced(&self, material: Material<f32>, side: usize) -> Result<Material<f32>, CoreError> {
-        let size = material.size();
+        let size = self.reduced_size(material.size(), side);
+        if size == material.size() { Ok(material) } else { material.resized(size) }
+    }
+
+    /// The size of that material.
+    fn reduced_size(&self, size: [usize; 2], side: usize) -> [usize; 2] {
         let longest = size[0].max(size[1]);
         if longest <= side || !self.crops.is_empty() {
-            return Ok(material);
+            return size;
         }
-        material.resized(size.map(|length| (length * side / longest).max(1)))
+        size.map(|length| (length * side / longest).max(1))
     }
 
     /// Where the figure comes from, as (keyword, text).
@@ -198,6 +266,12 @@ impl MethodStrip {
             ("svbrdf:exposure", exposure),
         ]
     }
+}
+
+/// The height of a row with the gap below it, in points.
+fn row_height(sheet: &Sheet, division: &Division, has_texts: bool) -> f64 {
+    let texts = if has_texts { 1.2 * SMALL * sheet.em } else { 0.0 };
+    division.height + texts + GAP * sheet.em
 }
 
 #[cfg(test)]
@@ -261,6 +335,24 @@ mod tests {
         let crops = vec!["10,10,40,30".parse().unwrap()];
         let with_insets = figure_of(&MethodStrip { crops, ..strip }, &rows);
         assert_eq!(with_insets.pictures().count(), 12);
+    }
+
+    #[test]
+    fn a_figure_of_a_given_height_is_as_narrow_as_it_takes_before_it_is_drawn() {
+        let (rows, names) = (rows(), [["blurred", "rough"], ["tiles", "lacking"]]);
+        let [methods, materials] = names.map(|names| names.map(str::to_owned));
+        let difference = ColouredDifference { kind: Difference::Log, range: Some(2.0) };
+        for strip in [strip(None), strip(Some(difference))] {
+            let within = |most| strip.within(most, (&methods, &materials), &[Some([256; 2]); 2], true);
+            let height = |strip: &MethodStrip| figure_of(strip, &rows).size[1] / MILLIMETRE;
+            let whole = height(&strip);
+            assert_eq!(within(whole + 0.01).unwrap(), strip);
+            let most = 0.9 * whole;
+            let found = height(&within(most).unwrap());
+            assert!((most - found).abs() < 0.01 && found <= most + 1e-6, "{found}, {most}");
+            let problem = within(12.0).unwrap_err().to_string();
+            assert!(problem.contains("12 mm high") && problem.contains("2 rows"), "{problem}");
+        }
     }
 
     #[test]
