@@ -17,6 +17,8 @@ use svbrdf_files::arrays::{Array, Arrays};
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::read::{Albedo, ReadOptions};
 
+use crate::support::surroundings::command;
+
 /// The maps of a texel: normal, diffuse, roughness and specular, as stored.
 type Texel = [[u8; 3]; 4];
 
@@ -159,6 +161,35 @@ fn crops_and_names_of_a_method_are_found() {
         unrelated.iter().all(|loss| loss.as_ref().is_err_and(|why| why.contains("sizes differ"))),
         "{unrelated:?}"
     );
+}
+
+#[test]
+fn the_order_under_other_questions_is_of_the_same_parts() {
+    let folder = TempDir::new().unwrap();
+    let (whole, part) = ([0, SIDE], [4, SIDE - 8]);
+    for (root, others) in [("whole", whole), ("cut", part)] {
+        for material in 0..MATERIALS {
+            for (of, at, level) in
+                [("gt", others, None), ("ours", part, Some(0.9)), ("theirs", others, Some(0.6))]
+            {
+                let path = folder.path().join(root).join(of).join(name(material));
+                strip(&path, at, |at| texel(material, at, SRGB, level));
+            }
+        }
+    }
+    let order = |root: &str| {
+        let mut rank = command(env!("CARGO_BIN_EXE_svbrdf"));
+        rank.current_dir(folder.path().join(root));
+        rank.args("rank --robust --dataset gt ours theirs --target-error 10% --format json".split(' '));
+        rank.args(["gt", "pred"].map(|of| format!("--read={of}:albedo=srgb,specular-albedo=srgb")));
+        let output = rank.output().unwrap();
+        let notes = String::from_utf8(output.stderr).unwrap();
+        assert!(!notes.contains("left out"), "{notes}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let found = order("whole");
+    assert!(found.contains("\"order\""), "{found}");
+    assert_eq!(found, order("cut"));
 }
 
 /// The made folders have the forms of a released evaluation: strips of linear ground truths, and their centres in files of maps of gamma 2.2
