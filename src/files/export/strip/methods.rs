@@ -20,8 +20,8 @@ use crate::export::figure::{Anchor, Figure, MILLIMETRE};
 
 /// The place of a prediction that is not there.
 const MISSING: [u8; 3] = [224; 3];
-/// Steps in which the width of a figure of a given height is found.
-const HALVINGS: usize = 32;
+/// Steps in which the width of a figure of a given height is found, to a 4096th of what it is without one: a step lays out all texts.
+const HALVINGS: usize = 12;
 /// Points of an inch.
 const INCH: f64 = 72.0;
 
@@ -349,7 +349,7 @@ mod tests {
             assert_eq!(within(whole + 0.01).unwrap(), strip);
             let most = 0.9 * whole;
             let found = height(&within(most).unwrap());
-            assert!((most - found).abs() < 0.01 && found <= most + 1e-6, "{found}, {most}");
+            assert!((most - found).abs() < 0.05 && found <= most + 1e-6, "{found}, {most}");
             let problem = within(12.0).unwrap_err().to_string();
             assert!(problem.contains("12 mm high") && problem.contains("2 rows"), "{problem}");
         }
