@@ -123,9 +123,16 @@ impl Alignments {
             Ok((symmetry, best.map_or([0, 0], whole)))
         };
         let symmetries = symmetries.into_iter().take(2).map(shifted).collect::<Result<_, Error>>()?;
-        let placement = placement.filter(|one| *one != Placement::moved(whole(*one)));
+        let placement = placement.filter(|one| !is_whole(*one, pair[0].size()));
         Ok(Self { shifts, placement, symmetries })
     }
+}
+
+/// Whether a placement is a displacement by whole texels, as far as it is found.
+fn is_whole(placement: Placement, size: [usize; 2]) -> bool {
+    let edge = 0.5 * size[0].max(size[1]) as f64;
+    let is_exact = |off: f64| off.abs() <= EXACT;
+    placement.by.iter().all(|by| is_exact(by - by.round())) && is_exact((placement.scale - 1.0) * edge)
 }
 
 /// The displacement by whole texels.

@@ -115,16 +115,16 @@ fn is_exposure(hypothesis: Hypothesis) -> bool {
 }
 
 /// The explanation with the least loss where each change has to explain a part of it; `resolvable`: the part of the loss below which
-/// nothing is explained. `lines` are all hypotheses, each with its best value alone. What is fitted is fitted in the pilot.
+/// nothing is explained. What is fitted is fitted in the pilot.
 pub(super) fn explain(
     [search, pilot]: [&Trials<'_>; 2],
     alignments: &Alignments,
-    lines: &[Proposal],
     resolvable: f64,
 ) -> Result<Vec<Proposal>, Error> {
-    let is_moved = |line: &&Proposal| matches!(line.change, Some(Change::Shift(_) | Change::Placement(_)));
-    let mut aligned: Vec<Vec<Proposal>> =
-        lines.iter().filter(is_moved).map(|line| vec![line.clone()]).collect();
+    // Also where an alignment alone raises the loss, as beside normals of another sign.
+    let shifts = alignments.shifts.iter().map(|&shift| Proposal::shift(shift));
+    let placement = alignments.placement.map(|placement| Proposal::placement(Some(placement)));
+    let mut aligned: Vec<Vec<Proposal>> = shifts.chain(placement).map(|one| vec![one]).collect();
     aligned.extend(alignments.symmetries.iter().map(|&(symmetry, shift)| {
         let shift = (shift != [0, 0]).then(|| Proposal::shift(shift));
         [Proposal::symmetry(symmetry)].into_iter().chain(shift).collect()

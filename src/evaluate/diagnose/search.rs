@@ -54,11 +54,8 @@ pub fn diagnose(
     let unchanged = evaluation.unchanged()?;
     let loss = Estimate::of_sampled(Sampler::Sobol, &evaluation.scenes, &unchanged.before);
     let resolvable = floor / loss.mean.max(f64::MIN_POSITIVE);
-    let explained = if resolvable < 1.0 {
-        explain([&search, &pilot], &alignments, &proposals, resolvable)?
-    } else {
-        Vec::new()
-    };
+    let explained =
+        if resolvable < 1.0 { explain([&search, &pilot], &alignments, resolvable)? } else { Vec::new() };
     for proposal in &explained {
         let line = proposals.iter_mut().find(|line| line.hypothesis == proposal.hypothesis);
         line.into_iter().for_each(|line| *line = proposal.clone());
