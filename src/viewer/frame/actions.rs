@@ -10,7 +10,9 @@ use crate::model::view::AutoExposure;
 use crate::model::{Model, display, opening, undo};
 
 /// A key, and what it does.
-pub type Action = (Modifiers, Key, fn(&mut Model));
+pub type Action = (Modifiers, Key, Run);
+/// What it does.
+pub type Run = fn(&mut Model);
 
 /// Gestures or keys, as the help names them and what they do.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +33,7 @@ const fn line(keys: &'static str, effect: &'static str, actions: &'static [Actio
 }
 
 /// The line of a key, and what it does.
-pub fn of((modifiers, key): (Modifiers, Key)) -> Option<(&'static Line, fn(&mut Model))> {
+pub fn of((modifiers, key): (Modifiers, Key)) -> Option<(&'static Line, Run)> {
     let lines = HELP.iter().flat_map(|(_, lines)| *lines);
     let with =
         |line: &'static Line| line.actions.iter().map(move |(with, of, run)| ((*with, *of), (line, *run)));
@@ -39,9 +41,9 @@ pub fn of((modifiers, key): (Modifiers, Key)) -> Option<(&'static Line, fn(&mut 
 }
 
 /// What messages do, too.
-pub const OPEN: fn(&mut Model) = |model| model.dialogs.open = Some(OpenDialog::default());
-pub const SAVE: fn(&mut Model) = |model| model.dialogs.save = Some(SaveDialog::new(SaveKind::View));
-pub const COPY_PICTURE: fn(&mut Model) = |model| model.effects.push(Effect::CopyPicture);
+pub const OPEN: Run = |model| model.dialogs.open = Some(OpenDialog::default());
+pub const SAVE: Run = |model| model.dialogs.save = Some(SaveDialog::new(SaveKind::View));
+pub const COPY_PICTURE: Run = |model| model.effects.push(Effect::CopyPicture);
 
 /// Every gesture and key with its effect, in groups, for the help window and docs/window.md.
 pub const HELP: &[(&str, &[Line])] = &[
