@@ -3,12 +3,14 @@
 use std::path::PathBuf;
 
 use svbrdf_core::loss::check_same_size;
-use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::progress::Progress;
 use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::{Destination, Provenance};
+use svbrdf_files::session::Session;
+use svbrdf_files::session::window::SessionDisplay;
 
 use super::args::scenes::RenderingArgs;
 use super::args::values::Range;
@@ -57,9 +59,9 @@ struct RenderJob {
     comparison: ComparisonJob,
     output: PathBuf,
     destination: Destination,
-    scene: Scene,
     content: PictureContent,
-    exposure_ev: f32,
+    /// With the scene and the exposure.
+    saved: Session,
 }
 
 impl RenderArgs {
@@ -86,7 +88,15 @@ impl RenderArgs {
         }
         let scene = scene.scene(session.map(|session| session.scene))?;
         let exposure_ev = exposure.or(session.map(|session| session.exposure_ev)).unwrap_or(0.0);
-        Ok(Box::new(RenderJob { comparison, output, destination, scene, content, exposure_ev }))
+        let mut saved = comparison.saved(scene, exposure_ev);
+        let mut display = SessionDisplay { quantity: content.quantity, ..Default::default() };
+        if let Some(ColouredDifference { kind, range }) = content.difference {
+            display.difference = true;
+            display.differences.choose(content.quantity, kind);
+            display.differences.set_range(content.quantity, range);
+        }
+        saved.window.display = Some(display);
+        Ok(Box::new(RenderJob { comparison, output, destination, content, saved }))
     }
 
     /// Refuses the options that maps do not use.
@@ -107,21 +117,18 @@ impl Job for RenderJob {
         }
         check_heights(&materials)?;
         let Self {
-            comparison: ComparisonJob { convention, .. },
-            destination,
-            scene,
-            content,
-            exposure_ev,
-            ..
+            comparison: ComparisonJob { convention, .. }, destination, content, saved: session, ..
         } = *self;
         let one = |material| {
-            watched("rendering", |progress| content.quantity.image(material, &scene, &convention, progress))
+            let image =
+                |progress: &Progress| content.quantity.image(material, &session.scene, &convention, progress);
+            watched("rendering", image)
         };
         let values = materials.iter().map(one).collect::<Result<_, _>>()?;
-        let Pictures { images, content } = content.of_values(values, &convention, exposure_ev);
+        let Pictures { images, content } = content.of_values(values, &convention, session.exposure);
         let sources = materials.iter().map(|m| m.name().to_owned()).collect();
         let renderer = "CPU, f32".to_owned();
-        let provenance = Provenance { content, scene, convention, exposure_ev, sources, renderer };
+        let provenance = Provenance { content, convention, sources, renderer, session };
         Ok(stoppable(|progress| destination.write_picture(&images, &provenance, None, progress))?)
     }
 }

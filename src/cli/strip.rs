@@ -9,6 +9,7 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::Destination;
 use svbrdf_files::export::strip::{Column, Crop, Paper, Strip};
+use svbrdf_files::session::Session;
 
 use crate::cli::args::protocol::MaskArgs;
 use crate::cli::args::scenes::{Lights, ListArgs, RenderingArgs};
@@ -101,6 +102,7 @@ struct StripJob {
     output: PathBuf,
     destination: Destination,
     strip: Strip,
+    saved: Session,
 }
 
 impl StripArgs {
@@ -148,7 +150,10 @@ impl StripArgs {
         let exposure_ev = self.rendering.exposure.or(saved).unwrap_or(0.0);
         let crops = self.crops;
         let strip = Strip { columns, convention: comparison.convention, exposure_ev, crops, paper };
-        Ok(Box::new(StripJob { materials: comparison.materials, output: self.output, destination, strip }))
+        let scene = self.rendering.scene.scene(session.map(|session| session.scene))?;
+        let saved = comparison.saved(strip.columns.first().map_or(scene, |column| column.scene), exposure_ev);
+        let (materials, output) = (comparison.materials, self.output);
+        Ok(Box::new(StripJob { materials, output, destination, strip, saved }))
     }
 
     /// Refuses what none of the columns uses.
@@ -168,7 +173,7 @@ impl StripArgs {
 /// Renders and writes the figure.
 impl Job for StripJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let Self { materials, output, destination, strip } = *self;
+        let Self { materials, output, destination, strip, saved } = *self;
         let opened = materials.open::<f32>()?;
         check_output(&output)?;
         let mask = opened.mask.clone();
@@ -179,7 +184,8 @@ impl Job for StripJob {
         let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
         let all: Vec<&Material<f32>> = materials.iter().collect();
         let figure = watched("rendering", |progress| strip.figure(&all, &names, mask.as_ref(), progress))?;
-        Ok(stoppable(|progress| destination.write_figure(&figure, &strip.entries(&names), progress))?)
+        let entries = strip.entries(&names, saved.entry(&output)?);
+        Ok(stoppable(|progress| destination.write_figure(&figure, &entries, progress))?)
     }
 }
 

@@ -79,20 +79,20 @@ impl ViewArgs {
     pub fn job(mut self, given: &Specified) -> NewJob {
         let materials = &self.materials;
         let is_dataset = self.dataset.dataset || self.dataset.pairs;
+        let paths: Vec<_> = materials.paths().filter(|path| !scene_file::is_named(path)).collect();
+        let is_session = !is_dataset && Session::is_among(&paths);
         if !is_dataset {
             refuse(self.dataset.diagnose, "diagnose", ONLY_OF_DATASET)?;
             let reason = "the window registers the predictions of data sets (--dataset, --pairs) alone";
             refuse(!materials.reading.register.is_empty(), "register", reason)?;
             given.refuse::<SceneArgs<Accuracy>>(ONLY_OF_DATASET)?;
-            let is_session = materials.paths().any(|path| Session::is_named(path));
             refuse(self.dataset.results.is_some() && !is_session, "results", ONLY_OF_DATASET)?;
         }
         refuse(materials.reading.both.verbose, "verbose", "the window lists what is noticed and assumed")?;
-        match materials.paths().find(|path| !scene_file::is_named(path)) {
-            Some(_) if is_dataset => {}
-            None => materials.refuse_of_built_in(given)?,
-            Some(path) if Session::is_named(path) => materials.refuse_of_session(given)?,
-            Some(_) => (),
+        if paths.is_empty() {
+            materials.refuse_of_built_in(given)?;
+        } else if is_session {
+            materials.refuse_of_session(given)?;
         }
         Ok(Box::new(ViewJob {
             #[cfg(feature = "viewer")]

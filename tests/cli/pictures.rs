@@ -15,8 +15,9 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
 use svbrdf_files::export::GAP;
 use svbrdf_files::samples;
+use svbrdf_files::session::Session;
 
-use super::{assert_has, assert_holds, folder, succeed, text_of};
+use super::{assert_has, assert_holds, fail, folder, run_in, succeed, text, text_of};
 use crate::support::losses::losses;
 
 /// The built-in materials as `render` shows them: side by side.
@@ -58,13 +59,11 @@ fn an_exr_holds_the_rendering_to_the_last_bit_says_where_it_comes_from_and_is_th
         assert_eq!(*pixel, pixel_at(&panes, x, y).unwrap_or([0.0; 3]), "{x}, {y}");
     }
     assert!(std::fs::read(&one).unwrap() == std::fs::read(two).unwrap());
+    let session = Session::read(&one).unwrap();
+    assert_eq!((session.scene, session.convention.as_str(), session.exposure), (scene, "printed", 2.0));
     let meta = exr::prelude::MetaData::read_from_file(one, false).unwrap();
     let attributes = &meta.headers[0].own_attributes;
-    let comments = attributes.comments.clone().unwrap().to_string();
-    assert_has(
-        &comments,
-        &["svbrdf:light: -1,0.5,0.8", "svbrdf:kind: distant", "svbrdf:convention: printed"],
-    );
+    assert_has(&attributes.comments.clone().unwrap().to_string(), &["svbrdf:shows: radiance"]);
     assert!(attributes.software_name.clone().unwrap().to_string().starts_with("svbrdf "));
 }
 
@@ -93,9 +92,70 @@ fn a_png_shows_the_rendering_and_says_where_it_comes_from() {
     }
     let chunks = &reader.info().uncompressed_latin1_text;
     let said = |key: &str| chunks.iter().find(|c| c.keyword == key).map(|c| c.text.as_str());
-    let keys = ["light", "view", "kind", "exposure", "convention"].map(|key| said(&format!("svbrdf:{key}")));
-    assert_eq!(keys, ["0.5,0.5,1", "0,0,2.5", "near", "-1 EV", "printed"].map(Some));
     assert!(said("svbrdf:sources").is_some() && said("Software").is_some());
+}
+
+#[test]
+fn a_picture_is_opened_again_and_names_the_file_that_has_changed() {
+    let folder = folder();
+    let of = |name: &str| folder.path().join(name);
+    // Characters that JSON, XML, PDF or attributes of an EXR escape.
+    let truth = "g\u{e9}(&\u{1f600}.png";
+    std::fs::rename(of("gt.png"), of(truth)).unwrap();
+    let scene = "--light -0.4,0.5,0.8 --view 0.2,-0.3,2 --distant --exposure 1.5 --convention guided-2020";
+    succeed(folder.path(), &format!("render {truth} a.png {scene} -o files.png"));
+    let pixels = |name: &str| image::open(of(name)).unwrap().to_rgb8();
+    for (command, name) in [
+        ("render", "a2.png"),
+        ("render --difference=flip", "b.png"),
+        ("render", "c.exr"),
+        ("strip", "d.png"),
+        ("strip", "e.pdf"),
+        ("strip", "f.svg"),
+    ] {
+        succeed(folder.path(), &format!("{command} {truth} a.png {scene} -o {name}"));
+        succeed(folder.path(), &format!("render {name} --show rendering -o again.png"));
+        assert!(pixels("again.png") == pixels("files.png"), "{name}");
+        succeed(folder.path(), &format!("render {name} -o again.png"));
+        assert_eq!(pixels("again.png") == pixels("files.png"), name != "b.png", "{name}");
+        let session = Session::read(&of(name)).unwrap();
+        assert_eq!(session.materials.len(), 2);
+        assert!(session.changed().is_empty());
+        let bytes = std::fs::read(of("a.png")).unwrap();
+        std::fs::write(of("a.png"), [&bytes[..], b"0"].concat()).unwrap();
+        let output = run_in(folder.path(), &format!("loss {name} --near 2 --distant 2"));
+        let told = text(&output.stderr).to_owned();
+        assert_eq!(told.matches("has changed since the picture was saved").count(), 1, "{told}");
+        assert_has(&told, &["a.png has changed"]);
+        std::fs::write(of("a.png"), bytes).unwrap();
+        // Beside a prediction, it is a picture of a material, or none.
+        assert_has(&fail(folder.path(), &format!("loss {name} a.png"), 1), &[name]);
+    }
+    std::fs::remove_file(of("a.png")).unwrap();
+    assert_has(&fail(folder.path(), "loss c.exr", 1), &["a.png", "the session c.exr names the materials"]);
+}
+
+#[test]
+fn a_picture_with_a_broken_session_is_refused_with_its_reason() {
+    let folder = folder();
+    let of = |name: &str| folder.path().join(name);
+    succeed(folder.path(), "strip gt.png a.png -o good.svg");
+    let good = std::fs::read_to_string(of("good.svg")).unwrap();
+    let session = good.lines().find(|line| line.starts_with("svbrdf:session: ")).unwrap();
+    for (bad, reason) in [
+        (session[..session.len() / 2].to_owned(), "cannot be opened"),
+        ("svbrdf:session: ".to_owned(), "cannot be opened"),
+        ("svbrdf:session: [3]".to_owned(), "cannot be opened"),
+        (session.replace("\"sha256\":[", "\"sha256\":[7,"), "expected a string"),
+        (session.replace("\"sha256\":[", "\"sha256\":{},\"other\":["), "expected"),
+        (session.replace("\"svbrdf-session\":1", "\"svbrdf-session\":2"), "newer program"),
+        (session.replace("\"kind\":\"near\"", "\"kind\":\"far\""), "near"),
+        (session.replace("\"path\":\"a.png\"", "\"path\":\"/dev/zero\""), "/dev/zero"),
+    ] {
+        assert_ne!(bad, session);
+        std::fs::write(of("bad.svg"), good.replace(session, &bad)).unwrap();
+        assert_has(&fail(folder.path(), "loss bad.svg", 1), &["bad.svg", reason]);
+    }
 }
 
 /// The loss of each built-in prediction in one scene, as the core computes it.

@@ -42,7 +42,7 @@ pub struct MaterialArgs {
 struct TypedMaterialArgs {
     /// Ground truth: an image, a folder, a name prefix or a session
     ///
-    /// A packed or layered image, a folder, a name prefix, or a session file of the window with its predictions; without one, the
+    /// A packed or layered image, a folder, a name prefix, or a session file or saved picture with its predictions; without one, the
     /// built-in materials. NAME=PATH names it.
     #[arg(value_name = "GT", value_parser = NamedPath::parser())]
     ground_truth: Option<NamedPath>,

@@ -107,6 +107,12 @@ impl MaterialJob {
         self.mask = mask.cloned();
     }
 
+    /// The materials, as a session has them.
+    pub fn sources(&self) -> Vec<MaterialSource> {
+        let fits = self.resize_to == Some(ResizeTo::GroundTruth);
+        self.sources.iter().map(|one| MaterialSource { fit: one.fit || fits, ..one.clone() }).collect()
+    }
+
     /// The number of predictions.
     pub fn predictions(&self) -> usize {
         self.sources.len() - 1
@@ -231,7 +237,7 @@ fn check_kind(path: &Path) -> Result<(), CommandError> {
 /// Tells where `paths` that cannot be read come from, or which command takes them.
 fn note_paths(paths: &[PathBuf]) {
     let [ground_truths, others @ ..] = paths else { return };
-    if Session::is_named(ground_truths) {
+    if Session::is_among(paths) {
         exit::tell(&format!("note: the session {} names the materials", ground_truths.display()));
     }
     if others.is_empty() || !paths.iter().all(|path| path.is_dir()) {

@@ -9,7 +9,9 @@ use std::path::PathBuf;
 use svbrdf_core::loss::Request;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
 use svbrdf_evaluate::report::{AnalysisInput, stored_normals_note};
+use svbrdf_files::session::Session;
 
 use super::args::{ComparisonArgs, Specified};
 use super::output::{CommandError, exit};
@@ -33,6 +35,8 @@ pub struct ComparisonJob {
     pub materials: MaterialJob,
     /// The settings of the session file that stands for the materials.
     pub session: Option<SessionSettings>,
+    /// The name or the text of the convention.
+    convention_text: String,
 }
 
 impl ComparisonJob {
@@ -49,16 +53,19 @@ impl ComparisonJob {
         let settings = |(file, path): (_, &PathBuf)| SessionSettings::new(file, path);
         let session = file.as_ref().zip(args.materials.paths().next()).map(settings).transpose()?;
         let of_session = session.as_ref().map(|session| session.convention);
+        let chosen = args.convention.as_ref();
+        let of_file = file.as_ref().filter(|_| chosen.is_none()).map(|file| file.convention.clone());
         Ok(Self {
-            convention: args
-                .convention
-                .as_ref()
-                .map(|chosen| chosen.convention)
-                .or(of_session)
-                .unwrap_or_default(),
+            convention: chosen.map(|chosen| chosen.convention).or(of_session).unwrap_or_default(),
+            convention_text: of_file.unwrap_or_else(|| chosen.cloned().unwrap_or_default().content()),
             materials: MaterialJob::new(&args.materials, file.as_ref(), given)?,
             session,
         })
+    }
+
+    /// The comparison in `scene`, to be opened again.
+    pub fn saved(&self, scene: Scene, exposure_ev: f32) -> Session {
+        Session::new(self.materials.sources(), scene, self.convention_text.clone(), exposure_ev)
     }
 }
 

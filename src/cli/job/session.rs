@@ -26,9 +26,10 @@ pub struct SessionSettings {
     pub loss: Option<LossSettings>,
 }
 
-/// The session file that stands for the ground truth and its predictions, read; `None` where the ground truth is none.
+/// The session file, or the picture with a session, that stands for the ground truth and its predictions, read; `None` where the ground truth is none.
 pub fn given(materials: &MaterialArgs) -> Result<Option<Session>, CommandError> {
-    let Some(given) = materials.ground_truth.as_ref().filter(|given| Session::is_named(&given.path)) else {
+    let paths: Vec<_> = materials.paths().collect();
+    let Some(given) = materials.ground_truth.as_ref().filter(|_| Session::is_among(&paths)) else {
         return Ok(None);
     };
     let path = &given.path;
@@ -43,6 +44,9 @@ pub fn given(materials: &MaterialArgs) -> Result<Option<Session>, CommandError> 
         let line =
             format!("note: {} lies outside of the folder of the session, which names it", file.display());
         exit::tell(&line);
+    }
+    for file in session.changed() {
+        exit::tell(&format!("note: {} has changed since the picture was saved", file.display()));
     }
     Ok(Some(session))
 }

@@ -43,6 +43,10 @@ impl Destination {
         Ok(Self { path: path.to_owned(), extension })
     }
 
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Whether it has this extension.
     pub fn is(&self, extension: &str) -> bool {
         self.extension == extension

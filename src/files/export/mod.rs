@@ -36,7 +36,7 @@ impl Destination {
     /// the content that takes the place of the one of `provenance`. The file appears when it is complete, or not at all.
     ///
     /// # Errors
-    /// [`Error::Unwritable`], [`Cancelled`](Error::is_cancelled).
+    /// [`Error::Unwritable`], [`Cancelled`](Error::is_cancelled), [`Error::Internal`].
     pub fn write_picture(
         &self,
         panes: &[Image<f32>],
@@ -44,12 +44,8 @@ impl Destination {
         shows: Option<String>,
         progress: &Progress,
     ) -> Result<(), Error> {
-        let colour = |rgb| provenance.content.colour(rgb, provenance.exposure_ev);
-        let mut entries = provenance.entries();
-        if let Some(shows) = shows {
-            Provenance::describe(&mut entries, shows);
-        }
-        self.write_as(panes, colour, &entries, progress)
+        let colour = |rgb| provenance.content.colour(rgb, provenance.session.exposure);
+        self.write_as(panes, colour, &provenance.entries(self.path(), shows)?, progress)
     }
 
     /// Writes maps of numbers, which are equally high, side by side: an EXR has the numbers, a PNG the colours of the means of

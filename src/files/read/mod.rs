@@ -125,14 +125,16 @@ impl<'a> MaterialPath<'a> {
     pub fn dependencies(&self) -> Result<Dependencies, Error> {
         let used = self.used()?;
         let located = formats::locate(self.path, &used.options.with_preset(), &used.bindings)?;
-        let mut hash = Sha256::new();
-        hash.update(format!("{used:?} {located:?}"));
+        let mut hash = Sha256::new_with_prefix(format!("{used:?} {located:?}"));
+        let mut content = Sha256::new();
         let mut files = Vec::new();
         for file in located.files() {
-            hash.update(file.digest()?);
+            let digest = file.digest()?;
+            hash.update(&digest);
+            content.update(&digest);
             files.push(file.path().to_owned());
         }
-        Ok(Dependencies { sha256: hexadecimal(hash), files })
+        Ok(Dependencies { sha256: hexadecimal(hash), content: hexadecimal(content), files })
     }
 
     /// The names that the material may have once it is read, found without its pixels; at least one.
@@ -157,6 +159,8 @@ impl<'a> MaterialPath<'a> {
 pub struct Dependencies {
     /// In hexadecimal: of the options, also those of the sidecar file, of what was located by names, listings and documents, and of the content of `files`.
     pub sha256: String,
+    /// In hexadecimal: of the content of `files` alone, wherever they are.
+    pub content: String,
     /// Every file that may be decoded.
     pub files: Vec<PathBuf>,
 }

@@ -1,6 +1,7 @@
 //! The session file: a comparison that another person can open, with everything that it takes.
 
 pub mod dataset;
+mod picture;
 pub mod window;
 
 use std::path::{Path, PathBuf};
@@ -18,8 +19,10 @@ use crate::disk::open::NamedFile;
 use crate::disk::paths::{absolute, is_outside, relative};
 use crate::error::Error;
 use crate::photograph::SessionPhotograph;
+use crate::read::MaterialPath;
 use crate::source::{MaterialSource, Place};
 use dataset::SessionDataset;
+pub(crate) use picture::KEYWORD;
 use window::SessionWindow;
 
 /// What the names of session files end with.
@@ -50,6 +53,9 @@ pub struct Session {
     /// Display and loss settings of the window.
     #[serde(default, skip_serializing_if = "SessionWindow::is_empty")]
     pub window: SessionWindow,
+    /// Of a picture: the digests of the files of its materials, `None` for a built-in one.
+    #[serde(rename = "sha256", default, skip_serializing_if = "Vec::is_empty")]
+    digests: Vec<Option<String>>,
 }
 
 impl Session {
@@ -58,18 +64,29 @@ impl Session {
         path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(ENDING))
     }
 
+    /// Whether these paths give a session: a session file is among them, or a picture with a session stands alone.
+    pub fn is_among(paths: &[impl AsRef<Path>]) -> bool {
+        let is_named = |path: &Path| Self::is_named(path);
+        match paths {
+            [path] => is_named(path.as_ref()) || picture::has(path.as_ref()),
+            _ => paths.iter().any(|path| is_named(path.as_ref())),
+        }
+    }
+
     /// A session without anything of a window.
     pub fn new(materials: Vec<MaterialSource>, scene: Scene, convention: String, exposure: f32) -> Self {
         let (photograph, window) = (None, SessionWindow::default());
-        Self { version: VERSION, materials, scene, convention, exposure, photograph, dataset: None, window }
+        let (version, dataset, digests) = (VERSION, None, Vec::new());
+        Self { version, materials, scene, convention, exposure, photograph, dataset, window, digests }
     }
 
-    /// Reads a session file; its paths become those from here.
+    /// Reads a session file, or the session of a picture; its paths become those from here.
     ///
     /// # Errors
     /// [`Error::Unreadable`], [`Error::BadSession`].
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let text = NamedFile::by_user(path).text()?;
+        let of_picture = picture::text(path)?;
+        let text = of_picture.map_or_else(|| NamedFile::by_user(path).text(), Ok)?;
         inputs::protect(path);
         let bad = |problem: String| Error::BadSession { path: path.to_owned(), problem };
         let value: Value = serde_json::from_str(&text).map_err(|e| bad(of_json(&e)))?;
@@ -127,6 +144,29 @@ impl Session {
             let (found, known) = (path.display().to_string(), format!("NAME{ENDING}"));
             return Err(CoreError::unknown_name("name of a session file", found, known).into());
         }
+        Ok(format!("{:#}\n", self.json(path)?))
+    }
+
+    /// The session as (keyword, text) in the metadata of the picture `path`, with the digests of the files of its materials.
+    ///
+    /// # Errors
+    /// [`Error::Internal`].
+    pub fn entry(&self, path: &Path) -> Result<(&'static str, String), Error> {
+        let digests = self.materials.iter().map(digest).collect();
+        Ok((picture::KEYWORD, picture::written(&Self { digests, ..self.clone() }.json(path)?)))
+    }
+
+    /// The files of the materials that have changed since the picture was saved which the session is from.
+    pub fn changed(&self) -> Vec<&Path> {
+        let all = self.materials.iter().zip(&self.digests);
+        let has_changed = |(material, saved): &(&MaterialSource, &Option<String>)| {
+            saved.is_some() && digest(material).is_some_and(|found| Some(found) != **saved)
+        };
+        all.filter(has_changed).map(|(material, _)| material.location()).collect()
+    }
+
+    /// What is written to the file `path`.
+    fn json(&self, path: &Path) -> Result<Value, Error> {
         let mut session = self.clone();
         let folder = absolute(path.parent().unwrap_or(Path::new("")));
         for path in session.paths_mut() {
@@ -139,8 +179,14 @@ impl Session {
                 read.retain(|_, option| !option.is_null());
             }
         }
-        Ok(format!("{value:#}\n"))
+        Ok(value)
     }
+}
+
+/// The digest of the files of a material; `None` where it has none, or they cannot be read.
+fn digest(material: &MaterialSource) -> Option<String> {
+    let found = MaterialPath::new(material.place.path()?, &material.options).dependencies();
+    found.ok().map(|found| found.content)
 }
 
 /// The path that `session` calls `name`: of a file, a folder or a prefix, and of nothing that waits or has no end.

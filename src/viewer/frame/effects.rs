@@ -7,9 +7,7 @@ use eframe::egui;
 
 use svbrdf_core::image::Image;
 use svbrdf_files::disk::inputs::check_output_of;
-use svbrdf_files::export::Provenance;
 use svbrdf_files::scene_file;
-use svbrdf_files::session::window::Framing;
 
 use crate::dataset::opening;
 use crate::error::Error;
@@ -24,7 +22,6 @@ use crate::model::Effect;
 use crate::model::Model;
 use crate::model::dialogs::{SaveKind, SaveRequest};
 use crate::model::material::opening::Arrival;
-use crate::model::view::ViewState;
 use crate::pane::Displayed;
 
 /// Carries out what edits of the model need outside of it: the only place that does.
@@ -51,6 +48,17 @@ fn one(parts: &mut Parts, ctx: &egui::Context, effect: Effect) {
         Effect::OpenDataset(paths) => opening::open(jobs, paths),
         Effect::RestoreDataset(session, results) => {
             opening::restore(jobs, *session, results, model.materials.rules.strict);
+        }
+        Effect::CheckFiles(session) => {
+            let check = Job::<Edit>::start(&jobs.waker, move |_| {
+                let warn = |path: &Path| {
+                    let path = path.display();
+                    Message::Warning(format!("{path} has changed since the picture was saved"))
+                };
+                let changed: Vec<_> = session.changed().into_iter().map(warn).collect();
+                Ok(Box::new(|model| model.report(changed)))
+            });
+            jobs.edits.insert("files", check);
         }
         Effect::Browse(what) => {
             // Where what is open came from.
@@ -176,14 +184,9 @@ fn writing(parts: &Parts, kind: SaveKind, picture: Option<egui::ColorImage>) -> 
 }
 
 fn save_view(displayed: &Displayed<'_>, picture: egui::ColorImage) -> Writing {
-    let mut entries = written::provenance(displayed, written::content(displayed)).entries();
-    entries.extend(view_entries(displayed.view()));
-    if let Some(text) = written::error_map_text(displayed).or_else(|| written::photograph_text(displayed)) {
-        Provenance::describe(&mut entries, text);
-    }
     let pixels = picture.pixels.iter().map(|pixel| [pixel.r(), pixel.g(), pixel.b()]).collect();
     let [width, height] = picture.size;
-    written::view(Image::<u8> { width, height, pixels }, entries)
+    written::view(displayed, Image::<u8> { width, height, pixels })
 }
 
 /// Puts the view on the clipboard as a picture.
@@ -200,19 +203,4 @@ pub(super) fn copy_picture(parts: &mut Parts, ctx: &egui::Context) {
 fn picture(parts: &mut Parts, ctx: &egui::Context) -> Result<egui::ColorImage, Error> {
     let Parts { model, jobs, ui, gpu } = parts;
     ui.picture(ctx, Displayed::ask(Shown { model, jobs }), gpu.as_mut())
-}
-
-/// How the view is displayed, as (keyword, text).
-fn view_entries(view: &ViewState) -> [(&'static str, String); 3] {
-    let framing = view.display.framing.map_or_else(
-        || "fitted".to_owned(),
-        |Framing { pixels_per_texel, centre: [x, y] }| {
-            format!("{pixels_per_texel} pixels per texel, texel {x}, {y} in the centre")
-        },
-    );
-    [
-        ("svbrdf:layout", view.display.layout.name().to_owned()),
-        ("svbrdf:projection", format!("{:?}", view.display.projection).to_lowercase()),
-        ("svbrdf:zoom", framing),
-    ]
 }

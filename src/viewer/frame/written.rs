@@ -31,7 +31,7 @@ use crate::pane::Displayed;
 pub type Writing = Box<dyn FnOnce(&Path, &Progress) -> Result<(), Error> + Send>;
 
 /// The content of a picture of the panes.
-pub fn content(displayed: &Displayed<'_>) -> PictureContent {
+fn content(displayed: &Displayed<'_>) -> PictureContent {
     let view = &displayed.model.view;
     let difference = ColouredDifference { kind: view.difference_kind(), range: Some(displayed.range()) };
     let compares = view.display.difference && displayed.materials().len() > 1;
@@ -39,15 +39,13 @@ pub fn content(displayed: &Displayed<'_>) -> PictureContent {
 }
 
 /// Where a picture of the materials comes from.
-pub fn provenance(displayed: &Displayed<'_>, content: PictureContent) -> Provenance {
-    let view = &displayed.model.view;
+fn provenance(displayed: &Displayed<'_>, content: PictureContent) -> Provenance {
     Provenance {
         content,
-        scene: view.scene,
-        convention: view.convention(),
-        exposure_ev: view.exposure_ev,
+        convention: displayed.model.view.convention(),
         sources: names(displayed.materials()),
         renderer: "CPU, f32".to_owned(),
+        session: displayed.model.session(),
     }
 }
 
@@ -66,9 +64,9 @@ pub fn renderings(displayed: &Displayed<'_>) -> Writing {
     Box::new(move |path, progress| {
         let destination = Destination::of_picture(path)?;
         let all: Vec<&Material<f32>> = all.iter().map(|loaded| loaded.material()).collect();
-        let Provenance { scene, convention, exposure_ev, .. } = &provenance;
+        let Provenance { convention, session, .. } = &provenance;
         let Pictures { images, content } =
-            content.pictures(&all, scene, convention, *exposure_ev, progress)?;
+            content.pictures(&all, &session.scene, convention, session.exposure, progress)?;
         provenance.content = content;
         Ok(destination.write_picture(&images, &provenance, None, progress)?)
     })
@@ -103,17 +101,21 @@ pub fn strip(displayed: &Displayed<'_>) -> Writing {
     let crops = region.into_iter().map(crop).collect();
     let (convention, exposure_ev) = (state.convention(), state.exposure_ev);
     let strip = Strip { columns, convention, exposure_ev, crops, paper: Paper::default() };
+    let session = displayed.model.session();
     Box::new(move |path, progress| {
         let destination = Destination::of_figure(path)?;
         let all: Vec<&Material<f32>> = all.iter().map(|loaded| loaded.material()).collect();
         let figure = strip.figure(&all, &names, None, progress)?;
-        Ok(destination.write_figure(&figure, &strip.entries(&names), progress)?)
+        Ok(destination.write_figure(&figure, &strip.entries(&names, session.entry(path)?), progress)?)
     })
 }
 
 /// A picture of the window, its pixels row by row.
-pub fn view(picture: Image<u8>, entries: Vec<(&'static str, String)>) -> Writing {
+pub fn view(displayed: &Displayed<'_>, picture: Image<u8>) -> Writing {
+    let provenance = provenance(displayed, content(displayed));
+    let shows = error_map_text(displayed).or_else(|| photograph_text(displayed));
     Box::new(move |path, progress| {
+        let entries = provenance.entries(path, shows)?;
         let destination = Destination::new(path, &["png"], "extension of a figure", ".png")?;
         Ok(destination.write_png(&picture, &entries, progress)?)
     })
@@ -179,22 +181,17 @@ pub fn against_photograph(displayed: &Displayed<'_>) -> Writing {
 /// The error maps side by side, as `svbrdf map` writes them.
 pub fn error_maps(displayed: &Displayed<'_>) -> Writing {
     let maps = displayed.computed_maps().cloned();
-    let entries = [
-        ("svbrdf:shows", error_map_text(displayed).unwrap_or_default()),
-        ("svbrdf:sources", names(displayed.materials()).join(" | ")),
-        ("svbrdf:convention", displayed.model.view.convention().name.to_owned()),
-        ("svbrdf:version", Provenance::SOFTWARE.to_owned()),
-    ];
+    let (provenance, shows) = (provenance(displayed, content(displayed)), error_map_text(displayed));
     let range = displayed.range() as f32;
     Box::new(move |path, progress| {
         let destination = Destination::of_picture(path)?;
         let maps = maps.ok_or(Error::Incomplete("the error map"))?;
-        Ok(destination.write_maps(&maps.images, range, &entries, progress)?)
+        Ok(destination.write_maps(&maps.images, range, &provenance.entries(path, shows)?, progress)?)
     })
 }
 
 /// What the metadata of a picture say where it shows error maps.
-pub fn error_map_text(displayed: &Displayed<'_>) -> Option<String> {
+fn error_map_text(displayed: &Displayed<'_>) -> Option<String> {
     let (loss, view) = (&displayed.model.settings.loss, displayed.view());
     let scenes = match (loss.listed_scenes(), loss.file_scenes()) {
         (Request::Scenes(Sampling { near, distant, seed, sampler, .. }), _) => {
@@ -212,7 +209,7 @@ pub fn error_map_text(displayed: &Displayed<'_>) -> Option<String> {
 }
 
 /// What the metadata of a picture say where it shows differences from a photograph.
-pub fn photograph_text(displayed: &Displayed<'_>) -> Option<String> {
+fn photograph_text(displayed: &Displayed<'_>) -> Option<String> {
     let kind = displayed.view().difference_kind();
     let photograph = displayed.photograph().filter(|_| displayed.view().display.difference)?;
     let factors = photograph.all()?.comparisons.iter().map(|one| one.factor.to_string());

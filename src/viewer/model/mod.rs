@@ -190,6 +190,8 @@ pub enum Effect {
     OpenDataset(Vec<PathBuf>),
     /// Opens the data set of a session, with the losses of a results folder.
     RestoreDataset(Box<SessionDataset>, Option<PathBuf>),
+    /// Tells which files have changed since the picture was saved that this session is from.
+    CheckFiles(Box<Session>),
     /// Asks with the system's dialog; the choice goes into the path field of the dialog that is open.
     Browse(BrowseFor),
     /// Writes a file.

@@ -38,7 +38,7 @@ pub fn open(model: &mut Model, mut paths: Vec<PathBuf>, replace: bool, read: Rea
     if paths.is_empty() {
         return;
     }
-    if paths.iter().any(|path| Session::is_named(path)) {
+    if Session::is_among(&paths) {
         return read_session(model, &paths);
     }
     if is_dataset(&paths) {

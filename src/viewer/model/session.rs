@@ -143,6 +143,7 @@ impl Model {
         let out_of_range = bring_into_range(self).map(Message::Warning);
         self.report(out_of_range);
         self.photograph.set(session.photograph.clone());
+        self.effects.push(Effect::CheckFiles(Box::new(session.clone())));
         self.read(self.materials.restore(&session.materials));
     }
 

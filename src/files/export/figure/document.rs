@@ -14,6 +14,7 @@ use svbrdf_core::image::Image;
 
 use super::layout::{Anchor, FILE, FONT, Figure, FigurePicture, MILLIMETRE, PlacedText, Text, glyphs};
 use crate::export::encode::{self, Entries, Provenance};
+use crate::session;
 
 /// Largest side of a page, in points: other programs open no larger one.
 pub(super) const LARGEST: f64 = 14_400.0;
@@ -60,8 +61,15 @@ pub(super) fn pdf(figure: &Figure, entries: &Entries) -> io::Result<Vec<u8>> {
     let mut used = Used::default();
     pdf.stream(CONTENT, &content(figure, &mut used));
     used.write(&mut pdf)?;
-    let keywords: Vec<String> = entries.iter().map(|(key, text)| format!("{key}: {text}")).collect();
-    pdf.document_info(INFO).producer(TextStr(Provenance::SOFTWARE)).keywords(TextStr(&keywords.join("\n")));
+    let (session, keywords): (Vec<_>, Vec<_>) = entries.iter().partition(|(key, _)| *key == session::KEYWORD);
+    let keywords: Vec<String> = keywords.iter().map(|(key, text)| format!("{key}: {text}")).collect();
+    let mut info = pdf.document_info(INFO);
+    info.producer(TextStr(Provenance::SOFTWARE)).keywords(TextStr(&keywords.join("\n")));
+    // A string of its own: keywords in other languages are not ASCII.
+    for (key, text) in session {
+        info.insert(Name(key.as_bytes())).primitive(Str(text.as_bytes()));
+    }
+    info.finish();
     Ok(pdf.finish())
 }
 

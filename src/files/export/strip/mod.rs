@@ -94,14 +94,13 @@ impl Strip {
         Ok(figure)
     }
 
-    /// Where the figure comes from, as (keyword, text).
-    pub fn entries(&self, names: &[String]) -> Vec<(&'static str, String)> {
+    /// What the figure shows, as (keyword, text), with the entry of its session.
+    pub fn entries(&self, names: &[String], session: (&'static str, String)) -> Vec<(&'static str, String)> {
         let columns = self.columns.iter().map(|column| column.text(self.convention.epsilon));
         let mut entries = vec![
             ("svbrdf:columns", columns.collect::<Vec<_>>().join(" | ")),
             ("svbrdf:sources", names.join(" | ")),
-            ("svbrdf:convention", self.convention.name.to_owned()),
-            ("svbrdf:exposure", format!("{} EV", self.exposure_ev)),
+            session,
         ];
         if !self.crops.is_empty() {
             let crops = self.crops.iter().map(Crop::to_string).collect::<Vec<_>>();
