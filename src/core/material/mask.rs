@@ -39,7 +39,7 @@ impl Mask {
 
     /// The mask in another size: a texel is compared where at least half of its area is. `None` where none is left.
     pub fn resized(&self, size: [usize; 2]) -> Option<Self> {
-        let plane = self.kept.iter().map(|kept| f32::from(u8::from(*kept))).collect();
+        let plane: Vec<f32> = self.kept.iter().map(|kept| f32::from(u8::from(*kept))).collect();
         let resized = resize::plane(plane, self.size, size, Filter::Value);
         Self::new(size, resized.into_iter().map(|share| share >= 0.5).collect())
     }

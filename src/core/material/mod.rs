@@ -192,12 +192,12 @@ impl<T: Real> Material<T> {
         if from == size {
             return Ok(self);
         }
-        let value = |plane| resize::plane(plane, from, size, Filter::Value);
-        let Planes { normal, diffuse, specular, roughness } = Arc::unwrap_or_clone(self.planes);
+        let value = |plane: &Vec<T>| resize::plane(plane, from, size, Filter::Value);
+        let Planes { normal, diffuse, specular, roughness } = &*self.planes;
         let planes = Planes {
-            normal: normal.map(value),
-            diffuse: diffuse.map(value),
-            specular: specular.map(value),
+            normal: normal.each_ref().map(value),
+            diffuse: diffuse.each_ref().map(value),
+            specular: specular.each_ref().map(value),
             roughness: resize::plane(roughness, from, size, Filter::Roughness),
         };
         Self::new(self.name, size[0], size[1], planes)

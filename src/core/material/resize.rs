@@ -1,5 +1,7 @@
 //! Planes of another size: the mean over areas on the way down, bilinear on the way up.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use crate::math::real::Real;
@@ -25,8 +27,14 @@ pub enum Kernel {
 }
 
 /// `plane` of size `from` (width, height) in the size `to`.
-pub fn plane<T: Real>(plane: Vec<T>, from: [usize; 2], to: [usize; 2], filter: Filter) -> Vec<T> {
-    if from == to { plane } else { weighed(&plane, from, to, filter, weights) }
+pub fn plane<'a, T: Real>(
+    plane: impl Into<Cow<'a, [T]>>,
+    from: [usize; 2],
+    to: [usize; 2],
+    filter: Filter,
+) -> Vec<T> {
+    let plane = plane.into();
+    if from == to { plane.into_owned() } else { weighed(&plane, from, to, filter, weights) }
 }
 
 /// `plane` of size `from` (width, height) in the size `to`, each value by four of every line, cut to `range`.

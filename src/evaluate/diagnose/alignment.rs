@@ -8,7 +8,7 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 use rayon::prelude::*;
 
-use crate::registration::find::{correlation, place};
+use crate::registration::find::{correlations, mean, place};
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::statistics::sort_by_number;
@@ -256,10 +256,8 @@ impl Level {
                 [values(&self.truth, texel), there]
             })
             .collect();
-        let of_plane = |plane: usize| correlation(pairs.iter().map(|[a, b]| [a[plane], b[plane]]));
-        let all: Vec<f64> = (0..4).filter_map(of_plane).map(f64::abs).collect();
-        let is_known = !all.is_empty() && 4 * pairs.len() >= self.texels.len();
-        is_known.then(|| all.iter().sum::<f64>() / all.len() as f64)
+        let is_known = 4 * pairs.len() >= self.texels.len();
+        mean(correlations(pairs.into_iter()).into_iter().flatten().map(f64::abs)).filter(|_| is_known)
     }
 
     /// The best displacement by whole texels of all near none.

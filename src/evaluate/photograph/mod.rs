@@ -84,7 +84,7 @@ pub fn on_texels(
         .into());
     }
     let planes = [0, 1, 2].map(|c| {
-        let plane = pixels.iter().map(|pixel| pixel[c]).collect();
+        let plane: Vec<_> = pixels.iter().map(|pixel| pixel[c]).collect();
         resize::plane(plane, [*width, *height], size, Filter::Value)
     });
     let grid = Grid { width: columns, height: rows };

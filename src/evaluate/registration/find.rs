@@ -217,37 +217,49 @@ impl Planes {
 
     fn resized(&self, size: [usize; 2]) -> Self {
         let size = size.map(|side| side.max(1));
-        let of = |plane: &Vec<f32>| resize::plane(plane.clone(), self.size, size, Filter::Value);
+        let of = |plane: &Vec<f32>| resize::plane(plane, self.size, size, Filter::Value);
         Self { size, planes: self.planes.each_ref().map(of), ..*self }
+    }
+
+    fn values(&self, [x, y]: [usize; 2]) -> [f64; 4] {
+        self.planes.each_ref().map(|plane| plane[y * self.size[0] + x].into())
     }
 
     /// The mean correlation over the planes of values at `texels` with those of `larger` from `at` on; `None` where all are flat.
     fn correlation(&self, larger: &Self, at: [usize; 2], texels: &[[usize; 2]]) -> Option<f64> {
-        let of = |(own, other): (&Vec<f32>, &Vec<f32>)| {
-            let values = texels.iter().map(|[x, y]| {
-                let there = (at[1] + y) * larger.size[0] + at[0] + x;
-                [own[y * self.size[0] + x], other[there]].map(f64::from)
-            });
-            let signed = correlation(values)?;
-            Some(if self.is_any_reading { signed.abs() } else { signed })
-        };
-        let all: Vec<f64> = self.planes.iter().zip(&larger.planes).filter_map(of).collect();
-        (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64)
+        let pairs =
+            texels.iter().map(|[x, y]| [self.values([*x, *y]), larger.values([at[0] + x, at[1] + y])]);
+        let all = correlations(pairs).into_iter().flatten();
+        mean(all.map(|signed| if self.is_any_reading { signed.abs() } else { signed }))
     }
 }
 
-/// The correlation of pairs; `None` where a side is flat.
-pub(crate) fn correlation(pairs: impl Iterator<Item = [f64; 2]>) -> Option<f64> {
-    let mut sums = [0.0; 6];
+/// The mean of what is known; `None` of nothing.
+pub(crate) fn mean(known: impl Iterator<Item = f64>) -> Option<f64> {
+    let (count, sum) = known.fold((0, 0.0), |(count, sum), value| (count + 1, sum + value));
+    (count > 0).then(|| sum / f64::from(count))
+}
+
+/// The correlation of pairs in each plane; `None` where a side is flat.
+pub(crate) fn correlations<const PLANES: usize>(
+    pairs: impl Iterator<Item = [[f64; PLANES]; 2]>,
+) -> [Option<f64>; PLANES] {
+    let (mut count, mut sums) = (0.0, [[0.0; PLANES]; 5]);
     for [a, b] in pairs {
-        for (sum, value) in sums.iter_mut().zip([1.0, a, b, a * a, b * b, a * b]) {
-            *sum += value;
+        count += 1.0;
+        for plane in 0..PLANES {
+            let (a, b) = (a[plane], b[plane]);
+            for (sum, value) in sums.iter_mut().zip([a, b, a * a, b * b, a * b]) {
+                sum[plane] += value;
+            }
         }
     }
-    let [count, a, b, aa, bb, ab] = sums;
-    let spread = |squares: f64, sum: f64| (squares / count - (sum / count).powi(2)).max(0.0).sqrt();
-    let (of_a, of_b) = (spread(aa, a), spread(bb, b));
-    (of_a > FLAT && of_b > FLAT).then(|| (ab / count - a * b / count.powi(2)) / (of_a * of_b))
+    std::array::from_fn(|plane| {
+        let [a, b, aa, bb, ab] = sums.map(|sum| sum[plane]);
+        let spread = |squares: f64, sum: f64| (squares / count - (sum / count).powi(2)).max(0.0).sqrt();
+        let (of_a, of_b) = (spread(aa, a), spread(bb, b));
+        (of_a > FLAT && of_b > FLAT).then(|| (ab / count - a * b / count.powi(2)) / (of_a * of_b))
+    })
 }
 
 #[cfg(test)]

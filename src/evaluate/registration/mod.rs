@@ -16,7 +16,7 @@ use svbrdf_core::material::resize::Kernel;
 use svbrdf_core::material::{Mask, Material};
 use svbrdf_core::math::real::Real;
 
-pub(crate) use find::correlation;
+pub(crate) use find::correlations;
 pub use find::{Found, Registered, common, found, registered};
 
 /// How a prediction lies on its ground truth.

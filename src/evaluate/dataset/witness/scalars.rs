@@ -76,5 +76,7 @@ fn agreed(found: &mut [f64], group: &Group<'_>) -> Option<f64> {
 }
 
 fn correlation(a: &[f32], b: &[f32]) -> Option<f64> {
-    registration::correlation(a.iter().zip(b).map(|(a, b)| [*a, *b].map(f64::from)))
+    let [known] =
+        registration::correlations(a.iter().zip(b).map(|(a, b)| [[f64::from(*a)], [f64::from(*b)]]));
+    known
 }
