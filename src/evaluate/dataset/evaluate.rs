@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::json;
 
-use crate::diagnose::{diagnose, floor};
+use crate::diagnose::{Explained, floor};
 use crate::error::Error;
 use crate::metrics::{Kept, RenderedScenes, of_masked_maps, of_renderings};
 use crate::protocols::MaskSource;
@@ -339,8 +339,9 @@ impl<'a> Evaluation<'a> {
     fn marks(&self, (truth, prediction): OpenedPair<'_>, floor: f64, seed: u64) -> Result<Vec<Mark>, Error> {
         let pair = [&truth.material, &prediction.material];
         let storages = [&truth.storage, &prediction.storage];
-        let found = diagnose(pair, storages, &self.convention, floor, seed, &self.progress.part())?;
-        Ok(found.marked().map(Mark::from).collect())
+        let progress = self.progress.part();
+        let found = Explained::of(pair, storages, &self.convention, floor, seed, &progress)?;
+        Ok(found.marked().marked().map(Mark::from).collect())
     }
 }
 

@@ -11,7 +11,7 @@ use svbrdf_core::model::sampler::{REPLICATES, Sampler};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::statistics::order;
 
-/// The finding of each proposal in the scenes of `evaluation`, not yet marked. `unchanged`: the losses without changes.
+/// The finding of each proposal in the scenes of `evaluation`, not yet marked, with its own p-value. `unchanged`: the losses without changes.
 pub(super) fn findings(
     evaluation: &Trials<'_>,
     proposals: &[Proposal],
@@ -24,10 +24,14 @@ pub(super) fn findings(
         let paired = proposal.change.and_then(|_| losses.next()).unwrap_or_else(|| unchanged.clone());
         finding(proposal, &paired, scenes)
     };
-    let mut findings: Vec<Finding> = proposals.iter().map(finding).collect();
-    let p = holm(&findings.iter().map(|finding| finding.p).collect::<Vec<_>>());
-    findings.iter_mut().zip(p).for_each(|(finding, p)| finding.p = p);
-    Ok(findings)
+    Ok(proposals.iter().map(finding).collect())
+}
+
+/// Corrects the p-values for the number of hypotheses; those of hypotheses without a finding count as 1.
+pub(super) fn correct(findings: &mut [Finding], hypotheses: usize) {
+    let mut p: Vec<f64> = findings.iter().map(|finding| finding.p).collect();
+    p.resize(hypotheses.max(p.len()), 1.0);
+    findings.iter_mut().zip(holm(&p)).for_each(|(finding, p)| finding.p = p);
 }
 
 fn finding(proposal: &Proposal, paired: &Paired, scenes: &[Scene]) -> Finding {

@@ -42,7 +42,7 @@ pub use dither::dithered;
 pub use evaluation::holm;
 pub use finding::{Alternative, Diagnosis, Finding, Hypothesis, Value};
 pub use floor::floor;
-pub use search::{SCENES, diagnose};
+pub use search::{Explained, SCENES, diagnose};
 pub use sentence::{sentence, sentence_of};
 pub use svbrdf_files::changes::{Change, Placement, Reading, Symmetry, shifted};
 pub use svbrdf_files::read::Storage;

@@ -1,13 +1,13 @@
 //! The diagnosis of a prediction: values fitted in a pilot, evaluated in other scenes, and marked.
 
 use super::alignment::Alignments;
-use super::evaluation::findings;
+use super::evaluation::{correct, findings};
 use super::explanation::explain;
-use super::finding::Diagnosis;
+use super::finding::{Diagnosis, Hypothesis};
 use super::marking::Marking;
 use super::proposals::Proposal;
 use super::samples::Pair;
-use super::trials::Trials;
+use super::trials::{Paired, Trials};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Estimate, check_same_size};
 use svbrdf_core::material::Material;
@@ -29,45 +29,91 @@ const PILOT_SEED: u64 = 0x7069_6c6f_7400_0000;
 /// The steps of `progress`.
 const STEPS: u64 = 4;
 
-/// Tries what may explain the loss of a prediction, `pair[1]`, against a ground truth, `pair[0]`, which were read from `storages`.
-/// Nothing is marked where the loss is not above `floor`. `seed` names the scenes.
+/// What explains the loss of a prediction: the sentence needs no more. The other lines are found after it.
+#[derive(Debug)]
+pub struct Explained<'a> {
+    pilot: Trials<'a>,
+    evaluation: Trials<'a>,
+    alignments: Alignments,
+    unchanged: Paired,
+    /// With the findings of the explanation, whose p-values are not corrected yet.
+    diagnosis: Diagnosis,
+}
+
+impl<'a> Explained<'a> {
+    /// Tries what may explain the loss of a prediction, the second of the pair, against a ground truth, the first, which were read from
+    /// `storages`. Nothing is marked where the loss is not above `floor`. `seed` names the scenes.
+    ///
+    /// # Errors
+    /// [`Error::SizesDiffer`], [`Error::Cancelled`].
+    pub fn of(
+        [ground_truth, prediction]: [&'a Material<f32>; 2],
+        storages: [&'a Storage; 2],
+        convention: &'a Convention,
+        floor: f64,
+        seed: u64,
+        progress: &'a Progress,
+    ) -> Result<Self, Error> {
+        check_same_size(ground_truth, prediction)?;
+        progress.begin(STEPS);
+        let pair = Pair { ground_truth, prediction, storages };
+        let trials = |size, seed| Trials::new(pair, convention, size, seed, progress);
+        let (pilot, evaluation) = (trials(PILOT, seed ^ PILOT_SEED)?, trials(EVALUATION, seed)?);
+        let search = trials(SEARCH, seed ^ PILOT_SEED)?;
+        let alignments = Alignments::of([ground_truth, prediction], pilot.sampling.seed)?;
+        progress.step()?;
+        let unchanged = evaluation.unchanged()?;
+        let loss = Estimate::of_sampled(Sampler::Sobol, &evaluation.scenes, &unchanged.before);
+        let resolvable = floor / loss.mean.max(f64::MIN_POSITIVE);
+        let explained =
+            if resolvable < 1.0 { explain([&search, &pilot], &alignments, resolvable)? } else { Vec::new() };
+        progress.step()?;
+        let findings = findings(&evaluation, &explained, &unchanged)?;
+        let name = prediction.name().to_owned();
+        let mut diagnosis = Diagnosis { prediction: name, loss, explained: None, findings };
+        let hypotheses = Hypothesis::of(storages[1]).count();
+        let marking = Marking { search: &search, pilot: &pilot, evaluation: &evaluation, hypotheses };
+        marking.mark(&mut diagnosis, explained, resolvable)?;
+        progress.step()?;
+        Ok(Self { pilot, evaluation, alignments, unchanged, diagnosis })
+    }
+
+    /// The diagnosis without the lines that are not marked; p-values are corrected as if those of all others were 1.
+    pub fn marked(&self) -> Diagnosis {
+        let mut diagnosis = self.diagnosis.clone();
+        correct(&mut diagnosis.findings, Hypothesis::of(self.pilot.pair.storages[1]).count());
+        diagnosis.findings.retain(|finding| finding.marked);
+        diagnosis
+    }
+
+    /// The diagnosis with all lines.
+    ///
+    /// # Errors
+    /// As [`Self::of`].
+    pub fn with_all_lines(mut self) -> Result<Diagnosis, Error> {
+        let known = &self.diagnosis.findings;
+        let mut lines = Proposal::all(&self.pilot, &self.alignments)?;
+        let count = lines.len();
+        lines.retain(|line| known.iter().all(|finding| finding.hypothesis != line.hypothesis));
+        self.diagnosis.findings.extend(findings(&self.evaluation, &lines, &self.unchanged)?);
+        self.diagnosis.findings.sort_by_key(|finding| finding.hypothesis as usize);
+        correct(&mut self.diagnosis.findings, count);
+        self.pilot.progress.step()?;
+        Ok(self.diagnosis)
+    }
+}
+
+/// The whole diagnosis of a prediction: [`Explained::of`], with all lines.
 ///
 /// # Errors
-/// [`Error::SizesDiffer`], [`Error::Cancelled`].
+/// As [`Explained::of`].
 pub fn diagnose(
-    [ground_truth, prediction]: [&Material<f32>; 2],
+    pair: [&Material<f32>; 2],
     storages: [&Storage; 2],
     convention: &Convention,
     floor: f64,
     seed: u64,
     progress: &Progress,
 ) -> Result<Diagnosis, Error> {
-    check_same_size(ground_truth, prediction)?;
-    progress.begin(STEPS);
-    let pair = Pair { ground_truth, prediction, storages };
-    let trials = |size, seed| Trials::new(pair, convention, size, seed, progress);
-    let (pilot, evaluation) = (trials(PILOT, seed ^ PILOT_SEED)?, trials(EVALUATION, seed)?);
-    let search = trials(SEARCH, seed ^ PILOT_SEED)?;
-    let alignments = Alignments::of([ground_truth, prediction], pilot.sampling.seed)?;
-    let mut proposals = Proposal::all(&pilot, &alignments)?;
-    progress.step()?;
-    let unchanged = evaluation.unchanged()?;
-    let loss = Estimate::of_sampled(Sampler::Sobol, &evaluation.scenes, &unchanged.before);
-    let resolvable = floor / loss.mean.max(f64::MIN_POSITIVE);
-    let explained =
-        if resolvable < 1.0 { explain([&search, &pilot], &alignments, resolvable)? } else { Vec::new() };
-    for proposal in &explained {
-        let line = proposals.iter_mut().find(|line| line.hypothesis == proposal.hypothesis);
-        line.into_iter().for_each(|line| *line = proposal.clone());
-    }
-    progress.step()?;
-    let name = prediction.name().to_owned();
-    let findings = findings(&evaluation, &proposals, &unchanged)?;
-    progress.step()?;
-    let mut diagnosis = Diagnosis { prediction: name, loss, explained: None, findings };
-    let marking =
-        Marking { search: &search, pilot: &pilot, evaluation: &evaluation, hypotheses: proposals.len() };
-    marking.mark(&mut diagnosis, explained, resolvable)?;
-    progress.step()?;
-    Ok(diagnosis)
+    Explained::of(pair, storages, convention, floor, seed, progress)?.with_all_lines()
 }

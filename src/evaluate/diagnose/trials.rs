@@ -29,6 +29,7 @@ const RADIANCES: usize = 1024;
 type SceneRadiances = Arc<Vec<Vec<Radiances>>>;
 
 /// A pair, and the scenes that changes of it are tried in.
+#[derive(Debug)]
 pub(super) struct Trials<'a> {
     pub(super) pair: Pair<'a>,
     pub(super) convention: &'a Convention,
@@ -77,6 +78,9 @@ impl<'a> Trials<'a> {
 
     /// The losses under each of `trials`.
     pub(super) fn losses(&self, trials: &[Vec<Change>]) -> Result<Vec<Paired>, Error> {
+        if trials.is_empty() {
+            return Ok(Vec::new());
+        }
         let count = self.scenes.len();
         if let Some(sampled) = self.samples.as_ref().filter(|_| count > BAND) {
             let band = |index: usize| {
@@ -113,8 +117,8 @@ impl<'a> Trials<'a> {
 
     /// The losses without changes.
     pub(super) fn unchanged(&self) -> Result<Paired, Error> {
-        let Pair { ground_truth, prediction, .. } = self.pair;
-        let losses = self.of_maps(Comparison::new(ground_truth, &[prediction], *self.convention)?)?;
+        let [ground_truth, prediction] = self.materials();
+        let losses = self.on_all_texels(ground_truth, &[prediction])?;
         let losses = losses.into_iter().next().unwrap_or_default();
         Ok(Paired { before: losses.clone(), after: losses })
     }

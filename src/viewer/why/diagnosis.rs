@@ -7,7 +7,7 @@ use eframe::egui::{self, FontId, vec2};
 
 use svbrdf_core::loss::Estimate;
 use svbrdf_core::model::convention::Convention;
-use svbrdf_evaluate::diagnose::{Diagnosis, Finding, SCENES, diagnose, floor, sentence};
+use svbrdf_evaluate::diagnose::{Diagnosis, Explained, Finding, SCENES, floor, sentence};
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::source::Place;
 
@@ -33,7 +33,11 @@ pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, pair: &ComparedPair, next: &mut M
         return;
     };
     let (floor, found) = diagnosis(&shown.jobs.answers, pair, model.settings.loss.seed);
-    let (floor, busy, found) = (floor.as_deref().map(|floor| &floor.answer), found.busy(), found.ready());
+    let (floor, busy) = (floor.as_deref().map(|floor| &floor.answer), found.busy());
+    let (found, is_whole) = match found {
+        Answer::Partial(found, ..) => (Some(found), false),
+        found => (found.ready(), true),
+    };
     let diagnosed = found.as_deref();
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = 1.0;
@@ -42,12 +46,13 @@ pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, pair: &ComparedPair, next: &mut M
         show_remedy(ui, model, prediction, diagnosed, next);
         let corrected = model.view.display.corrected;
         let is_open = model.settings.sections.is_open(WhySection::Hypotheses);
-        let diagnosed = diagnosed.map(|found| &found.answer);
-        HypothesisLines { ground_truth, prediction, diagnosed, corrected, is_open }.ui(ui, next);
+        let found = diagnosed.map_or(&[][..], |found| &found.findings);
+        HypothesisLines { ground_truth, prediction, found, corrected, is_open }.ui(ui, next);
     });
     let (fraction, elapsed) = busy.unwrap_or_default();
     let doing = || format!("Trying changes, {} s", elapsed.as_secs());
-    state_line(ui, found.as_deref().map(|found| summary(floor, found)), ABOUT, (fraction, doing));
+    let whole = found.as_deref().filter(|_| is_whole);
+    state_line(ui, whole.map(|found| summary(floor, found)), ABOUT, (fraction, doing));
 }
 
 /// The button that corrects the reading, in a row of constant height.
@@ -161,7 +166,10 @@ impl Question for Diagnose {
         let [truth, prediction] = self.pair.read()?;
         let materials = [truth.material(), prediction.material()];
         let storages = [&truth.storage, &prediction.storage];
-        Ok(diagnose(materials, storages, &self.pair.convention, self.floor, self.seed, work.progress())?)
+        let (convention, progress) = (&self.pair.convention, work.progress());
+        let explained = Explained::of(materials, storages, convention, self.floor, self.seed, progress)?;
+        work.tell(explained.marked());
+        Ok(explained.with_all_lines()?)
     }
 }
 

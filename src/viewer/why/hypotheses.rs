@@ -3,7 +3,7 @@
 use eframe::egui::{self, RichText, Sense, vec2};
 use egui_material_icons::icons;
 
-use svbrdf_evaluate::diagnose::{Change, Diagnosis, Finding, Hypothesis};
+use svbrdf_evaluate::diagnose::{Change, Finding, Hypothesis};
 
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
@@ -21,7 +21,8 @@ const ROW: f32 = 17.0;
 pub struct HypothesisLines<'a> {
     pub ground_truth: &'a LoadedMaterial,
     pub prediction: &'a LoadedMaterial,
-    pub diagnosed: Option<&'a Diagnosis>,
+    /// What is found so far; the marked ones come first.
+    pub found: &'a [Finding],
     /// The change after which the pane shows the prediction.
     pub corrected: Option<Change>,
     /// Whether the lines without a mark are unfolded.
@@ -32,19 +33,18 @@ impl HypothesisLines<'_> {
     /// The marked lines, or the one that explains most, and the others behind one line. As many rows while it is diagnosed, where at
     /// most one has a mark.
     pub fn ui(&self, ui: &mut egui::Ui, next: &mut Model) {
-        let Some(diagnosed) = self.diagnosed else {
-            let mut all = Hypothesis::of(&self.prediction.read.storage);
-            all.next().into_iter().for_each(|one| drop(line(ui, one, None, false)));
-            self.header(ui, "Other explanations", next);
-            all.filter(|_| self.is_open).for_each(|one| drop(line(ui, one, None, false)));
-            return;
+        let finding = |one: &Hypothesis| self.found.iter().find(|finding| finding.hypothesis == *one);
+        let all: Vec<Hypothesis> = Hypothesis::of(&self.prediction.read.storage).collect();
+        let first: Vec<Hypothesis> = first(self.found).into_iter().map(|one| one.hypothesis).collect();
+        let first = if first.is_empty() { &all[..1] } else { &first };
+        first.iter().for_each(|one| self.line(ui, *one, finding(one), next));
+        let others: Vec<&Hypothesis> = all.iter().filter(|one| !first.contains(one)).collect();
+        let text = match others.iter().all(|one| finding(one).is_some()) {
+            true => format!("{} other explanations: none marked", others.len()),
+            false => "Other explanations".to_owned(),
         };
-        let first = first(&diagnosed.findings);
-        first.iter().for_each(|finding| self.finding(ui, finding, next));
-        let is_other = |finding: &&Finding| !first.contains(finding);
-        let others: Vec<&Finding> = diagnosed.findings.iter().filter(is_other).collect();
-        self.header(ui, &format!("{} other explanations: none marked", others.len()), next);
-        others.iter().filter(|_| self.is_open).for_each(|finding| self.finding(ui, finding, next));
+        self.header(ui, &text, next);
+        others.iter().filter(|_| self.is_open).for_each(|one| self.line(ui, **one, finding(one), next));
     }
 
     /// The line that unfolds the others.
@@ -58,11 +58,16 @@ impl HypothesisLines<'_> {
         }
     }
 
-    fn finding(&self, ui: &mut egui::Ui, finding: &Finding, next: &mut Model) {
+    /// The line of a hypothesis, whose finding may not be there yet.
+    fn line(&self, ui: &mut egui::Ui, hypothesis: Hypothesis, finding: Option<&Finding>, next: &mut Model) {
+        let Some(finding) = finding else {
+            line(ui, hypothesis, None, false);
+            return;
+        };
         let change = shown_change(finding, self.prediction);
         let is_shown = change.is_some() && change == self.corrected;
         let names = [self.ground_truth, self.prediction].map(|one| one.material().name());
-        let response = line(ui, finding.hypothesis, Some(finding), is_shown);
+        let response = line(ui, hypothesis, Some(finding), is_shown);
         let response = response.on_hover_ui(|ui| {
             details(ui, finding, change, is_shown);
             if let Some(option) = finding.command_option(names) {

@@ -152,8 +152,7 @@ fn one_click_reads_the_file_as_the_finding_says_and_undo_goes_back() {
     for place in ["Why", "Files"] {
         let offer = "Reading the normals with Y down would lower the loss by";
         tab(&mut window, "Why");
-        see(&mut window, offer);
-        window.run_steps(30);
+        wait_for_diagnosis(&mut window);
         tab(&mut window, place);
         window.get_by_label_contains(offer);
         click(&mut window, "Read with normal y down");

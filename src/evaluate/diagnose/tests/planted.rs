@@ -2,7 +2,8 @@
 
 use super::super::alignment::{Alignments, Interior};
 use super::super::{
-    Diagnosis, Hypothesis, Placement, Reading, Storage, Symmetry, Value, diagnose, sentence, shifted,
+    Diagnosis, Explained, Hypothesis, Placement, Reading, Storage, Symmetry, Value, diagnose, sentence,
+    shifted,
 };
 use super::materials::{generated, unexplained, with};
 use svbrdf_core::loss::{Comparison, Compute as _};
@@ -20,8 +21,16 @@ fn stored(encoding: Albedo) -> Storage {
     Storage { colours: Some(encoding), specular: Some(encoding), ..Storage::default() }
 }
 
+/// The diagnosis, whose sentence is there before the lines without a mark.
 fn found(truth: &Material<f32>, prediction: &Material<f32>, storage: &Storage) -> Diagnosis {
-    diagnose([truth, prediction], [storage; 2], &PRINTED, 0.0, 1, &Progress::default()).unwrap()
+    let (pair, progress) = ([truth, prediction], Progress::default());
+    let explained = Explained::of(pair, [storage; 2], &PRINTED, 0.0, 1, &progress).unwrap();
+    let marked = explained.marked();
+    let found = explained.with_all_lines().unwrap();
+    assert_eq!(sentence(&marked, None), sentence(&found, None));
+    assert!(marked.findings.iter().all(|finding| finding.marked), "{marked:#?}");
+    assert_eq!(found.findings.len(), Hypothesis::of(storage).count());
+    found
 }
 
 /// The only marked finding.
