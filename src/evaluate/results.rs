@@ -45,6 +45,13 @@ impl Key {
         Self::at(Level::best(), of)
     }
 
+    /// The same but for one of the things that it depends on.
+    pub(crate) fn with(&self, name: &str, value: Value) -> Self {
+        let mut of = self.of.clone();
+        of[name] = value;
+        Self { of }
+    }
+
     /// Another version may compute other numbers, and remark on other things. The sums of another instruction set differ in their last
     /// digits.
     fn at(level: Level, mut of: Value) -> Self {

@@ -125,9 +125,15 @@ impl<'a> Evaluation<'a> {
         let truth = self.dependencies(&case.ground_truth, &self.reading.ground_truths);
         let key = |candidate| self.key(case, candidate, truth.as_ref()?, self.seed(case));
         let load = |key: &Option<Key>| self.results.as_ref()?.load(&case.material, key.as_ref()?);
+        let is_diagnosed = self.settings.diagnose;
         let of = |candidate| {
             let key = key(candidate);
-            let known = load(&key);
+            // A loss does not depend on whether it is diagnosed.
+            let other = || load(&Some(key.as_ref()?.with("diagnose", json!(!is_diagnosed))));
+            let mut known: Option<PairResult> = load(&key).or_else(other);
+            if let Some(known) = known.as_mut().filter(|_| !is_diagnosed) {
+                (known.floor, known.prediction.marks) = (None, None);
+            }
             (key, known)
         };
         case.candidates.iter().map(of).collect()
@@ -136,7 +142,7 @@ impl<'a> Evaluation<'a> {
     /// The result of a material of which everything is known.
     fn whole(&self, case: &Case, found: &Found) -> Option<MaterialResult> {
         let of = |(candidate, (_, known)): (&CandidateFile, &(_, Option<PairResult>))| match known {
-            Some(known) => Some(known.prediction.clone()),
+            Some(known) => self.has_all(known).then(|| known.prediction.clone()),
             None => candidate.missing.clone().map(|problem| without_loss(candidate, problem)),
         };
         // Where a result is known, so is the ground truth.
@@ -144,6 +150,11 @@ impl<'a> Evaluation<'a> {
         let predictions = case.candidates.iter().zip(found).map(of).collect::<Option<_>>()?;
         let (index, material) = (case.index, case.material.clone());
         Some(MaterialResult { index, material, seed: self.seed(case), reading, floor, predictions })
+    }
+
+    /// Whether the diagnosis is known, too, where it is asked for.
+    fn has_all(&self, known: &PairResult) -> bool {
+        known.prediction.marks.is_some() == self.settings.diagnose
     }
 
     /// The result of a material, of which what was found is not computed again.
@@ -156,8 +167,8 @@ impl<'a> Evaluation<'a> {
         let mut predictions = Vec::new();
         for (candidate, (key, known)) in case.candidates.iter().zip(found) {
             let prediction = match known {
-                Some(known) => known.prediction,
-                None => self.new_prediction(case, candidate, &truth, floor, (key, seed))?,
+                Some(known) if self.has_all(&known) => known.prediction,
+                known => self.new_prediction(case, candidate, &truth, floor, (key, known, seed))?,
             };
             predictions.push(prediction);
         }
@@ -215,21 +226,21 @@ impl<'a> Evaluation<'a> {
         Some(Key::new(of))
     }
 
-    /// The result of a prediction that is not known, which is kept if it has a loss.
+    /// The result of a prediction that is not known, or not its diagnosis, which is kept if it has a loss.
     fn new_prediction(
         &self,
         case: &Case,
         candidate: &CandidateFile,
         truth: &Opened,
         floor: Option<f64>,
-        (key, seed): (Option<Key>, u64),
+        (key, known, seed): (Option<Key>, Option<PairResult>, u64),
     ) -> Result<PredictionResult, Error> {
         let opened = Opened::beside(candidate, truth, self.reading);
         // Not of files that were written while they were read.
         let found = self.dependencies(&case.ground_truth, &self.reading.ground_truths);
         let now = found.and_then(|found| self.key(case, candidate, &found, seed));
         let kept = key.filter(|key| now.as_ref() == Some(key));
-        let prediction = self.prediction(candidate, truth, opened, floor.unwrap_or(0.0), seed)?;
+        let prediction = self.prediction(candidate, truth, opened, floor.unwrap_or(0.0), (known, seed))?;
         if let (Some(folder), Some(key), Some(_)) = (&self.results, kept, prediction.known) {
             let (reading, prediction) = (truth.remarks.clone(), prediction.clone());
             let result = PairResult { reading, floor, prediction };
@@ -238,22 +249,27 @@ impl<'a> Evaluation<'a> {
         Ok(prediction)
     }
 
-    /// The result of a prediction; `floor` is that of the ground truth.
+    /// The result of a prediction, of which a loss that is `known` is not computed again; `floor` is that of the ground truth.
     fn prediction(
         &self,
         candidate: &CandidateFile,
         truth: &Opened,
         opened: Opened,
         floor: f64,
-        seed: u64,
+        (known, seed): (Option<PairResult>, u64),
     ) -> Result<PredictionResult, Error> {
         let truth = opened.truth.as_ref().or(truth.found.as_ref().ok());
         let pair = truth.zip(opened.found.as_ref().ok());
         let kept = opened.kept.as_ref();
-        let metrics = pair.map(|pair| self.metrics(pair, kept, seed)).transpose()?.unwrap_or_default();
+        let known = known.map(|known| (known.prediction.metrics, known.prediction.known));
+        let new =
+            |pair| Ok::<_, Error>((self.metrics(pair, kept, seed)?, Some(self.loss(pair, kept, seed)?)));
+        let (metrics, known) = match known {
+            Some(known) => known,
+            None => pair.map(new).transpose()?.unwrap_or_default(),
+        };
         let marks = pair.filter(|_| self.settings.diagnose);
         let marks = marks.map(|pair| self.marks(pair, floor, seed)).transpose()?;
-        let known = pair.map(|pair| self.loss(pair, kept, seed)).transpose()?;
         let size = pair.map(|(truth, _)| truth.material.size());
         // `open` gives the problem of the ground truth, too.
         let error = opened.found.err();
@@ -350,4 +366,45 @@ fn without_loss(candidate: &CandidateFile, problem: String) -> PredictionResult 
     let CandidateFile { method, sample, path, .. } = candidate.clone();
     let path = path.display().to_string();
     PredictionResult { method, sample, path, error: Some(problem), ..PredictionResult::default() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dataset::Source;
+    use svbrdf_core::loss::Request;
+    use svbrdf_files::convention::ChosenConvention;
+
+    #[test]
+    fn a_loss_that_is_known_stays_as_it_is_diagnosed_and_one_that_is_diagnosed_is_known_without() {
+        let samples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/samples");
+        let predictions = vec![(None, samples.join("blurred_normals.png"))];
+        let source = Source::predictions(samples.join("worn_tiles.png"), predictions);
+        let (cases, reading, progress) =
+            (source.cases().unwrap(), DatasetReading::default(), Progress::default());
+        let request = Request::Accuracy { target: 0.2, seed: 0 };
+        let plain = DatasetSettings::new(source, ChosenConvention::default(), request, &cases);
+        let with = DatasetSettings { diagnose: true, ..plain.clone() };
+        let [first, second] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+        let of = |settings, folder| Evaluation::new(settings, &reading, Some(folder), &progress).unwrap();
+        let put = |evaluation: &Evaluation<'_>, prediction: PredictionResult| {
+            let key = evaluation.found(&cases[0])[0].0.clone().unwrap();
+            let result = PairResult { reading: Vec::new(), floor: Some(0.5), prediction };
+            evaluation.results.as_ref().unwrap().add(&cases[0].material, &key, &result, &progress).unwrap();
+        };
+        let evaluation = of(&plain, first.path());
+        let mut prediction = evaluation.material(&cases[0]).unwrap().predictions.remove(0);
+        // As if it were another one.
+        prediction.known.as_mut().unwrap().loss = 42.0;
+        put(&evaluation, prediction);
+        let evaluation = of(&with, first.path());
+        assert!(evaluation.known(&cases[0]).is_none());
+        let prediction = evaluation.material(&cases[0]).unwrap().predictions.remove(0);
+        assert_eq!(prediction.known.unwrap().loss, 42.0);
+        assert!(evaluation.known(&cases[0]).is_some() && prediction.marks.is_some());
+        put(&of(&with, second.path()), prediction);
+        let known = of(&plain, second.path()).known(&cases[0]).unwrap();
+        let prediction = &known.predictions[0];
+        assert_eq!((prediction.known.unwrap().loss, &prediction.marks, known.floor), (42.0, &None, None));
+    }
 }
