@@ -181,7 +181,8 @@ fn of_many_predictions_every_one_is_reached_by_keys_and_named_by_what_differs() 
     }
     assert!(has(&window, "4  \u{2026}003"), "names end with what differs");
     let displayed = window.displayed();
-    let titles: Vec<_> = displayed.contents().into_iter().map(|one| displayed.name_of(one, 9)).collect();
+    let titles: Vec<_> =
+        displayed.contents().into_iter().map(|one| displayed.names_of(one, 9)[0].clone()).collect();
     assert_eq!(titles[0], "GROUND TRUTH  gt");
     assert!((1..15).all(|i| titles[i] == format!("{i}  \u{2026}{:03}", i - 1)), "so do titles: {titles:?}");
 }

@@ -131,7 +131,7 @@ impl AskCase {
                 check_same_size(truth.material(), read.material()).map_err(|problem| problem.to_string())?;
                 Ok(read)
             });
-            let slot = self.slot(place);
+            let slot = self.open.slot(place.0, place.1);
             match of_size {
                 Ok(read) => found.materials.push((slot, read)),
                 Err(problem) => found.missing.push(Missing { slot, name: self.name(place), problem }),
@@ -178,11 +178,6 @@ impl AskCase {
         let mut reading = Reading { rules: self.rules, size, retries: false };
         let read = reading::read(&mut reading, &source, gpu.as_ref(), &progress.part());
         read.map(Arc::new).map_err(|error| error.to_string())
-    }
-
-    /// The slot of a prediction: that of its method, or its place among the predictions of one ground truth.
-    fn slot(&self, (case, column): (usize, usize)) -> usize {
-        if self.open.is_of_predictions() { case + 1 } else { column }
     }
 
     /// What a prediction is called.

@@ -178,7 +178,11 @@ impl MatrixTable<'_> {
         let share = known.map_or(0.0, |known| known.loss / self.matrix.losses.largest.max(f64::MIN_POSITIVE));
         let bar = square.with_min_y(square.bottom() - 4.0);
         let bar = bar.with_max_x(bar.left() + bar.width() * share as f32);
-        painter.rect_filled(bar, 0.0, theme::series(self.matrix.slot(cell), ui.visuals().dark_mode));
+        painter.rect_filled(
+            bar,
+            0.0,
+            theme::series(self.matrix.open.slot(cell.case, cell.column), ui.visuals().dark_mode),
+        );
     }
 
     /// A drag moves light or view in all cells, as in a pane; a click chooses the cell, and a second one opens its row.

@@ -79,11 +79,6 @@ impl<'a> Matrix<'a> {
         method.map_or("ground truth", String::as_str)
     }
 
-    /// The slot of a cell, which gives its number and its colour: that of its method, or its place among the predictions of one material.
-    pub fn slot(&self, cell: MatrixCell) -> usize {
-        if self.open.is_of_predictions() && cell.column > 0 { cell.case + 1 } else { cell.column }
-    }
-
     /// The loss of a prediction.
     pub fn loss(&self, cell: MatrixCell) -> Option<KnownLoss> {
         *self.losses.row(cell.case)?.by_method.get(cell.column.checked_sub(1)?)?

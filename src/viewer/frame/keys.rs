@@ -13,10 +13,6 @@ use crate::loss::losses::ComputeLosses;
 use crate::model::{Model, display, opening};
 use crate::widgets::copy;
 
-/// The keys that choose a prediction.
-const DIGITS: [Key; 9] =
-    [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
-
 /// Carries out the keys pressed in this frame; none while a text field has the focus.
 fn press(ctx: &egui::Context, model: &mut Model, answers: &Answers) {
     if ctx.text_edit_focused() {
@@ -30,7 +26,7 @@ fn press(ctx: &egui::Context, model: &mut Model, answers: &Answers) {
         let presses = ctx.input_mut(|input| input.count_and_consume_key(modifiers, key));
         (0..presses).for_each(|_| run(model));
     }
-    for (slot, key) in (1..).zip(DIGITS) {
+    for (slot, key) in (1..=9).filter_map(|slot| Some((slot, Key::from_name(&slot.to_string())?))) {
         if ctx.input(|input| input.events.iter().any(|event| is_with_shift(event, key))) {
             opening::make_ground_truth(model, slot);
         } else if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {

@@ -17,7 +17,8 @@ const SCALES: [u16; 8] = [75, 100, 125, 150, 175, 200, 250, 300];
 
 pub fn ui(ui: &mut egui::Ui, Shown { model, jobs }: Shown<'_>, next: &mut Model) {
     if let Some(open) = &model.dataset.open {
-        of_dataset(ui, open.noun(), next);
+        let list = format!("List of {}s  (A)", open.noun());
+        ui.toggle_value(&mut next.dataset.list.is_open, list).on_hover_text("Beside the panes");
         ui.separator();
     }
     let theme = if model.settings.dark { "Light theme" } else { "Dark theme" };
@@ -68,13 +69,6 @@ impl Question for ListAdapters {
     fn answer(&self, _: &Work<'_, Self::Answer>) -> Result<BTreeSet<String>, Error> {
         Ok(Gpu::adapters()?.into_iter().map(|one| one.name).collect())
     }
-}
-
-/// The parts of the window that only a data set has; `noun` is what it lists.
-fn of_dataset(ui: &mut egui::Ui, noun: &str, next: &mut Model) {
-    let dataset = &mut next.dataset;
-    ui.toggle_value(&mut dataset.list.is_open, format!("List of {noun}s  (A)"))
-        .on_hover_text("Beside the panes");
 }
 
 /// Chooses the scale, once the monitor is known: systems without one of their own draw text of 2 mm on a 4K screen.

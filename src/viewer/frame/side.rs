@@ -25,7 +25,9 @@ pub fn ui(ui: &mut egui::Ui, displayed: &Displayed<'_>, next: &mut Model, textur
             .on_hover_text("The scene of the panes, and the convention of renderings and loss");
     });
     if let Some(open) = &displayed.open_photograph {
-        photograph::ui(ui, open, displayed.materials(), displayed.photograph().is_some(), next);
+        let is_compared = displayed.photograph().is_some();
+        let panel = bare(egui::Panel::bottom("photograph"), ui).resizable(false);
+        panel.show(ui, |ui| photograph::ui(ui, open, displayed.materials(), is_compared, next));
     }
     let tab = model.settings.tab;
     let scroll = egui::ScrollArea::vertical().id_salt(tab as usize);

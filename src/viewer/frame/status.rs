@@ -94,12 +94,10 @@ impl StatusBar<'_> {
     /// The column of the photograph, at the exposure of the chosen material.
     fn photograph(&self, ui: &mut egui::Ui, photographs: &Photographs, mono: impl Fn(String) -> RichText) {
         let chosen = self.shown.chosen();
-        let numbers: Vec<String> = match self.texel {
-            Some(texel) => pane::photograph(photographs, chosen, texel).into_iter().map(fixed).collect(),
-            None => vec![format!("{:>1$}", "-", WIDTH); 3],
-        };
+        let at = |texel| photographs.at(chosen, texel).map(f64::from).to_vec();
         ui.separator();
-        let text = mono(format!("photo {}", numbers.join(" "))).color(theme::ground_truth(ui.visuals()));
+        let text = format!("photo {}", texts(self.texel.map(at), 3));
+        let text = mono(text).color(theme::ground_truth(ui.visuals()));
         let hover = format!("The photograph at the exposure of {}", self.shown.materials()[chosen].name());
         ui.label(text).on_hover_text(hover);
     }
@@ -121,12 +119,15 @@ impl StatusBar<'_> {
     /// The numbers of material `index` at the texel, always of the same width.
     fn numbers(&self, index: usize) -> String {
         let (shown, difference) = (self.shown, self.shown.view().display.difference);
-        let numbers: Vec<String> = match self.texel {
-            Some(texel) => pane::numbers(shown, index, difference, texel).into_iter().map(fixed).collect(),
-            None => vec![format!("{:>1$}", "-", WIDTH); pane::count(shown, index)],
-        };
-        format!("{}{}", numbers.join(" "), pane::unit(shown.view(), index))
+        let numbers = self.texel.map(|texel| pane::numbers(shown, index, difference, texel));
+        format!("{}{}", texts(numbers, pane::count(shown, index)), pane::unit(shown.view(), index))
     }
+}
+
+/// The numbers, or as many dashes of their width.
+fn texts(numbers: Option<Vec<f64>>, count: usize) -> String {
+    let dashes = || vec![format!("{:>1$}", "-", WIDTH); count];
+    numbers.map_or_else(dashes, |all| all.into_iter().map(fixed).collect()).join(" ")
 }
 
 /// The magnification, in a field of constant width.

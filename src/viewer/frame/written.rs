@@ -34,7 +34,8 @@ pub type Writing = Box<dyn FnOnce(&Path, &Progress) -> Result<(), Error> + Send>
 fn content(displayed: &Displayed<'_>) -> PictureContent {
     let view = &displayed.model.view;
     let difference = ColouredDifference { kind: view.difference_kind(), range: Some(displayed.range()) };
-    let compares = view.display.difference && displayed.materials().len() > 1;
+    let has_reference = displayed.materials().len() > 1 || displayed.photograph().is_some();
+    let compares = view.display.difference && has_reference;
     PictureContent { quantity: view.display.quantity, difference: compares.then_some(difference) }
 }
 
@@ -155,10 +156,7 @@ pub fn against_photograph(displayed: &Displayed<'_>) -> Writing {
     let all = displayed.photographs().cloned();
     let view = &displayed.model.view;
     let (kind, difference) = (view.difference_kind(), view.display.difference);
-    let content = ColouredDifference { kind, range: Some(displayed.range()) };
-    let content =
-        PictureContent { quantity: view.display.quantity, difference: difference.then_some(content) };
-    let mut provenance = provenance(displayed, content);
+    let mut provenance = provenance(displayed, content(displayed));
     let chosen = displayed.chosen();
     if let (false, Some(photograph)) = (difference, displayed.photograph()) {
         provenance.sources.insert(0, photograph.title(chosen));

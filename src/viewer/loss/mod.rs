@@ -32,11 +32,7 @@ const MILLISECONDS: std::ops::RangeInclusive<u64> = 16..=10_000;
 /// Draws the section.
 pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model) {
     let (materials, job) = (&shown.model.materials, DrawnLosses::ask(shown));
-    let mut asks_for_file = false;
-    request(ui, &mut next.settings.loss, &mut asks_for_file);
-    if asks_for_file {
-        next.dialogs.open = Some(OpenDialog::default());
-    }
+    request(ui, &mut next.settings.loss, &mut next.dialogs.open);
     controls(ui, shown, &job, next);
     if materials.predictions().is_empty() {
         let missing = match materials.ground_truth() {
@@ -146,7 +142,7 @@ fn button(text: &str) -> egui::Button<'_> {
 }
 
 /// The settings of the loss: first what decides the number of scenes, then the fields of that choice.
-fn request(ui: &mut egui::Ui, settings: &mut LossSettings, asks_for_file: &mut bool) {
+fn request(ui: &mut egui::Ui, settings: &mut LossSettings, dialog: &mut Option<OpenDialog>) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
         for (ask, name, meaning) in [
@@ -185,7 +181,9 @@ fn request(ui: &mut egui::Ui, settings: &mut LossSettings, asks_for_file: &mut b
             let open = ui.small_button("Scene file...");
             let hover =
                 "Compute the loss over the scenes of a file (JSON, or render.json of a MaterialGAN capture)";
-            *asks_for_file = open.on_hover_text(hover).clicked();
+            if open.on_hover_text(hover).clicked() {
+                *dialog = Some(OpenDialog::default());
+            }
             named_scenes(ui, settings);
         }
     });

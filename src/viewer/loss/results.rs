@@ -4,6 +4,7 @@ use eframe::egui::{self, Color32, RichText, Sense, Stroke, pos2, vec2};
 
 use svbrdf_core::loss::{Estimate, Loss};
 use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::statistics::order;
 use svbrdf_evaluate::analyses::SampledScenes;
 
 use crate::loss::losses::ComputedLosses;
@@ -49,7 +50,7 @@ impl Results<'_> {
         ui.spacing_mut().button_padding.y = 1.0;
         ui.spacing_mut().interact_size.y = LINE;
         self.heads(ui);
-        let order = order(losses);
+        let order = order(&losses.iter().map(|loss| loss.estimate.mean).collect::<Vec<_>>());
         let means = means(&order.iter().map(|index| &losses[*index].estimate).collect::<Vec<_>>());
         for (index, mean) in order.into_iter().zip(means) {
             let is_stale = self.stale.get(index).is_some_and(|is_stale| *is_stale);
@@ -192,13 +193,6 @@ fn cell(ui: &mut egui::Ui, width: f32, text: RichText) -> egui::Response {
         ui.label(text)
     })
     .inner
-}
-
-/// The indices of the losses, the least first.
-fn order(losses: &[Loss]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..losses.len()).collect();
-    order.sort_by(|a, b| losses[*a].estimate.mean.total_cmp(&losses[*b].estimate.mean));
-    order
 }
 
 /// What a difference says of its first prediction.

@@ -193,11 +193,6 @@ pub fn numbers(shown: &Displayed<'_>, index: usize, difference: bool, texel: [us
     value(index)[..state.display.quantity.channels()].iter().map(|v| f64::from(*v)).collect()
 }
 
-/// The photograph at a texel, at the exposure of material `index`.
-pub fn photograph(photographs: &Photographs, index: usize, texel: [usize; 2]) -> Vec<f64> {
-    photographs.at(index, texel).map(f64::from).to_vec()
-}
-
 /// How many numbers a column of the status line has.
 pub fn count(shown: &Displayed<'_>, index: usize) -> usize {
     let (display, compared) = (&shown.view().display, index > 0 || shown.photographs().is_some());

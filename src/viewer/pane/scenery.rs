@@ -116,20 +116,13 @@ impl Displayed<'_> {
         panes
     }
 
-    /// The name of what a pane shows, without its difference, in about `most` characters.
-    pub fn name_of(&self, content: PaneContent, most: usize) -> String {
-        match (self.photograph(), content.photograph) {
-            (Some(photograph), PhotographUse::Displayed) => photograph.title(content.index),
-            _ => self.title(content.index, most),
-        }
-    }
-
-    /// The name of what a pane compares with, in about `most` characters.
-    pub fn name_of_reference(&self, content: PaneContent, most: usize) -> String {
-        match (self.photograph(), content.photograph) {
-            (Some(photograph), PhotographUse::Reference) => photograph.title(content.index),
-            _ => self.title(content.reference, most),
-        }
+    /// The names of what a pane shows, without its difference, and of what it compares with, in about `most` characters.
+    pub fn names_of(&self, content: PaneContent, most: usize) -> [String; 2] {
+        let all = [(PhotographUse::Displayed, content.index), (PhotographUse::Reference, content.reference)];
+        all.map(|(of, index)| match self.photograph() {
+            Some(photograph) if content.photograph == of => photograph.title(content.index),
+            _ => self.title(index, most),
+        })
     }
 
     /// What the first material is: alone it is the ground truth of nothing.

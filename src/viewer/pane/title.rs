@@ -143,10 +143,10 @@ fn loss_of(shown: &Displayed<'_>, prediction: usize, title: Rect) -> Option<Stri
 
 /// The names, of at most `most` characters each, and the quantity of differences where there is room for it.
 fn text(shown: &Displayed<'_>, content: PaneContent, most: usize, has_quantity: bool) -> String {
-    let name = shown.name_of(content, most);
+    let [name, reference] = shown.names_of(content, most);
     let names = match content.mode {
         DisplayMode::Value => name,
-        DisplayMode::Wipe(_) => format!("{}   |   {name}", shown.name_of_reference(content, most)),
+        DisplayMode::Wipe(_) => format!("{reference}   |   {name}"),
     };
     if content.difference && has_quantity {
         format!("{names}: {}", shown.view().difference_name())

@@ -134,7 +134,7 @@ impl Viewport {
         let id = ui.scope_id().with(("pane", number));
         let response = ui.interact(rect, id, Sense::drag());
         self.drawn.push((id, rect));
-        let label = format!("Pane {}", shown.name_of(content, usize::MAX));
+        let label = format!("Pane {}", shown.names_of(content, usize::MAX)[0]);
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
         let placed = self.placed(shown.view(), shown.materials()[0].grid(), rect);
         self.paint(ui, shown, gpu, (number, content), &placed);
@@ -208,7 +208,7 @@ impl Viewport {
         if state.display.projection == Projection::Flat && content.mode == DisplayMode::Value {
             let (index, difference) = (content.index, content.difference);
             placed.paint_numbers(painter, |texel| match (content.photograph, shown.photographs()) {
-                (PhotographUse::Displayed, Some(photographs)) => pane::photograph(photographs, index, texel),
+                (PhotographUse::Displayed, Some(all)) => all.at(index, texel).map(f64::from).to_vec(),
                 _ => pane::numbers(shown, index, difference, texel),
             });
         }

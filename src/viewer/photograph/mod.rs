@@ -9,24 +9,13 @@ use svbrdf_files::read::Albedo;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::{Model, opening};
 use crate::photograph::compared::DisplayedPhotograph;
-use crate::widgets::{bare, named};
+use crate::widgets::named;
 
 /// Height of the list of factors, in points.
 const FACTORS: f32 = 76.0;
 
 /// Draws the section of the photograph that is open beside `materials`; whether the panes compare with it.
 pub fn ui(
-    ui: &mut egui::Ui,
-    displayed: &DisplayedPhotograph<'_>,
-    materials: &[LoadedMaterial],
-    is_compared: bool,
-    next: &mut Model,
-) {
-    let panel = bare(egui::Panel::bottom("photograph"), ui).resizable(false);
-    panel.show(ui, |ui| card(ui, displayed, materials, is_compared, next));
-}
-
-fn card(
     ui: &mut egui::Ui,
     displayed: &DisplayedPhotograph<'_>,
     materials: &[LoadedMaterial],

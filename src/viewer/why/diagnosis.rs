@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use eframe::egui::text::TextFormat;
-use eframe::egui::{self, FontId, vec2};
+use eframe::egui::{self, FontId};
 
 use svbrdf_core::loss::Estimate;
 use svbrdf_core::model::convention::Convention;
@@ -20,7 +20,7 @@ use crate::model::settings::WhySection;
 use crate::model::{Model, opening};
 use crate::why::hypotheses::HypothesisLines;
 use crate::widgets::numbers::{digits, seconds};
-use crate::widgets::{rows, state_line};
+use crate::widgets::{of_height, rows, state_line};
 
 /// Rows of the sentence.
 const SENTENCE: usize = 3;
@@ -64,8 +64,7 @@ fn show_remedy(
     next: &mut Model,
 ) {
     let height = ui.spacing().interact_size.y;
-    ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
-        ui.set_min_height(height);
+    of_height(ui, height, |ui| {
         let marked = diagnosed.into_iter().flat_map(|diagnosed| diagnosed.marked());
         let mut remedies = marked.filter_map(Finding::remedy_of_prediction);
         if let Some(remedy) = remedies.find(|one| is_offered(prediction, *one)) {

@@ -8,7 +8,6 @@ use svbrdf_evaluate::diagnose::{Change, Finding, Hypothesis};
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::settings::WhySection;
-use crate::model::view::ViewState;
 use crate::widgets::numbers::digits;
 use crate::widgets::theme;
 
@@ -64,7 +63,8 @@ impl HypothesisLines<'_> {
             line(ui, hypothesis, None, false);
             return;
         };
-        let change = shown_change(finding, self.prediction);
+        // What the pane of the prediction can show.
+        let change = finding.change.filter(|change| change.fits(self.prediction.material().size()));
         let is_shown = change.is_some() && change == self.corrected;
         let names = [self.ground_truth, self.prediction].map(|one| one.material().name());
         let response = line(ui, hypothesis, Some(finding), is_shown);
@@ -75,7 +75,7 @@ impl HypothesisLines<'_> {
             }
         });
         if change.is_some() && response.clicked() {
-            toggle(&mut next.view, change, self.corrected);
+            next.view.correct(change.filter(|_| !is_shown));
         }
     }
 }
@@ -87,16 +87,6 @@ fn first(findings: &[Finding]) -> Vec<&Finding> {
         return marked;
     }
     findings.iter().max_by(|a, b| a.share.total_cmp(&b.share)).into_iter().collect()
-}
-
-/// The change that the pane of the prediction can show.
-fn shown_change(finding: &Finding, prediction: &LoadedMaterial) -> Option<Change> {
-    finding.change.filter(|change| change.fits(prediction.material().size()))
-}
-
-/// Shows the prediction after this change, or itself where it is `corrected` so.
-fn toggle(view: &mut ViewState, change: Option<Change>, corrected: Option<Change>) {
-    view.correct(change.filter(|change| corrected != Some(*change)));
 }
 
 /// The line of a hypothesis: its name, the value and the share; dots where they are not there yet.

@@ -98,9 +98,16 @@ pub fn state_line(
         progress(ui, fraction, doing());
         return;
     };
+    of_height(ui, height, |ui| {
+        ui.add(egui::Label::new(RichText::new(text).small().weak()).truncate()).on_hover_text(hover);
+    });
+}
+
+/// Contents of a height that is kept without them.
+pub fn of_height(ui: &mut egui::Ui, height: f32, contents: impl FnOnce(&mut egui::Ui)) {
     ui.allocate_ui(egui::vec2(ui.available_width(), height), |ui| {
         ui.set_min_height(height);
-        ui.add(egui::Label::new(RichText::new(text).small().weak()).truncate()).on_hover_text(hover);
+        contents(ui);
     });
 }
 
@@ -135,8 +142,7 @@ pub fn rows(ui: &mut egui::Ui, text: Option<String>, format: TextFormat, rows: u
     // Rows are rounded to pixels.
     let empty = LayoutJob::single_section("\n".repeat(rows - 1), format.clone());
     let height = ui.painter().layout_job(empty).size().y;
-    ui.allocate_ui(egui::vec2(ui.available_width(), height), |ui| {
-        ui.set_min_height(height);
+    of_height(ui, height, |ui| {
         if let Some(text) = text {
             let mut job = LayoutJob::single_section(text, format);
             job.wrap.max_rows = rows;

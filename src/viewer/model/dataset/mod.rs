@@ -78,6 +78,12 @@ impl OpenDataset {
         matches!(self.settings.source, Source::Predictions { .. })
     }
 
+    /// The slot of a prediction, which gives its number and its colour: that of its method, or its place among the predictions of one
+    /// material; 0 of a ground truth.
+    pub fn slot(&self, case: usize, column: usize) -> usize {
+        if self.is_of_predictions() && column > 0 { case + 1 } else { column }
+    }
+
     /// What a row of its list is.
     pub fn noun(&self) -> &'static str {
         if self.is_of_predictions() { "prediction" } else { "material" }
