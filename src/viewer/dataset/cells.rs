@@ -40,7 +40,7 @@ impl Drawn {
 impl MatrixTable<'_> {
     pub fn row(&mut self, ui: &mut egui::Ui, places: &Places, row: usize, drawn: &Drawn, next: &mut Model) {
         let Some((case, ahead)) = self.matrix.at(row) else { return };
-        let (methods, name) = (self.matrix.open.methods().len(), drawable(self.matrix.open.name(case)));
+        let name = drawable(self.matrix.open.name(case));
         let top = places.top(row);
         let line = places.view.with_min_y(top).with_max_y(top + places.cell.y);
         let body = places.body();
@@ -57,8 +57,8 @@ impl MatrixTable<'_> {
             next.dataset.show_table(false);
         }
         let texts = self.matrix.losses.row(case).map(texts).unwrap_or_default();
-        for column in places.first..=methods {
-            let square = line.with_min_x(places.left(column)).with_max_x(places.left(column) + places.cell.x);
+        for (place, &column) in self.matrix.columns.iter().enumerate().skip(places.first) {
+            let square = line.with_min_x(places.left(place)).with_max_x(places.left(place) + places.cell.x);
             let seen = square.intersect(body);
             if !seen.is_positive() {
                 continue;

@@ -1,6 +1,6 @@
 //! Heads of the columns of the table: the table of methods, what the rows are sorted by, and the colours of differences.
 
-use eframe::egui::{self, Align2, FontId, Rect, Sense, WidgetInfo, pos2, vec2};
+use eframe::egui::{self, Align2, FontId, Rect, Response, Sense, StrokeKind, WidgetInfo, pos2, vec2};
 
 use svbrdf_evaluate::dataset::MethodSummary;
 
@@ -8,7 +8,7 @@ use crate::dataset::pictures;
 use crate::dataset::places::{GAP, LINE, MatrixTable, Places};
 use crate::dataset::summary;
 use crate::model::Model;
-use crate::model::dataset::list::ListOrder;
+use crate::model::dataset::list::{ListOrder, ListView};
 use crate::model::material::loaded::drawable;
 use crate::widgets::names::{Names, fitted};
 use crate::widgets::numbers::{apart, digits};
@@ -27,8 +27,8 @@ impl MatrixTable<'_> {
         let names = Names::new(&methods);
         let fonts = (FontId::proportional(12.5), FontId::monospace(11.0));
         let heads = corner.with_min_x(corner.right()).with_max_x(places.view.right());
-        for column in places.first..=methods.len() {
-            let room = corner.with_min_x(places.left(column)).with_max_x(places.left(column) + places.cell.x);
+        for (place, &column) in self.matrix.columns.iter().enumerate().skip(places.first) {
+            let room = corner.with_min_x(places.left(place)).with_max_x(places.left(place) + places.cell.x);
             let seen = room.intersect(heads);
             let painter = ui.painter().with_clip_rect(seen.intersect(ui.clip_rect()));
             let paint = |number: usize, text: &str, font: &FontId, ink| {
@@ -53,8 +53,10 @@ impl MatrixTable<'_> {
             });
             let mean = found.map_or("", |(_, _, mean)| mean);
             let mut told = format!("{mean}{arrow}");
-            let mut hover =
-                format!("{}\nThe largest losses of this method first; again: the least", methods[method]);
+            let mut hover = format!(
+                "{}\nThe largest losses of this method first; again: the least\nDrag it to another place",
+                methods[method]
+            );
             if let Some((rank, one, _)) = found {
                 let interval = one.interval95_materials.map(|ends| ends.map(digits));
                 let over =
@@ -70,12 +72,34 @@ impl MatrixTable<'_> {
             if !self.matrix.open.is_of_predictions() {
                 painter.rect_filled(line, 0.0, theme::series(column, ui.visuals().dark_mode));
             }
-            let response = ui.interact(seen, ui.scope_id().with(("head", method)), Sense::click());
+            let response = ui.interact(seen, ui.scope_id().with(("head", method)), Sense::click_and_drag());
             let name = format!("Sort by {}: {told}", methods[method]);
             response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &name));
-            if response.on_hover_text(hover).clicked() {
-                next.dataset.list.sort_by(ListOrder::Loss(method));
-            }
+            let response = response.on_hover_text(hover);
+            self.act(ui, places, (column, room), &response, &mut next.dataset.list);
+        }
+    }
+
+    /// A click on the head of a column sorts by its losses; a drag moves it to the place that has an outline meanwhile.
+    fn act(
+        &self,
+        ui: &egui::Ui,
+        places: &Places,
+        (column, room): (usize, Rect),
+        response: &Response,
+        next: &mut ListView,
+    ) {
+        if response.clicked() {
+            next.sort_by(ListOrder::Loss(column - 1));
+        }
+        let is_dragged = response.dragged() || response.drag_stopped();
+        let Some(pointer) = response.interact_pointer_pos().filter(|_| is_dragged) else { return };
+        let methods = self.matrix.open.methods();
+        let to = (1..=methods.len()).rev().find(|place| places.left(*place) <= pointer.x).unwrap_or(1);
+        let room = Rect::from_min_size(pos2(places.left(to), room.top()), room.size());
+        ui.painter().rect_stroke(room, 0.0, (1.0, theme::accent(ui.visuals())), StrokeKind::Inside);
+        if response.drag_stopped() {
+            next.move_column(methods, column, to - 1);
         }
     }
 

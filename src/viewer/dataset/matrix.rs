@@ -23,6 +23,8 @@ pub struct Matrix<'a> {
     pub losses: Arc<Answered<DatasetLosses>>,
     /// The materials that are listed, sorted and filtered: their places in the data set.
     pub rows: Vec<usize>,
+    /// The columns in the order of their places; that of the ground truth is the first.
+    pub columns: Vec<usize>,
 }
 
 impl<'a> Matrix<'a> {
@@ -36,7 +38,8 @@ impl<'a> Matrix<'a> {
             is_marked: dataset.mark(&one.material).is_some_and(|mark| mark.is_marked),
         });
         let rows = dataset.list.rows(&all.collect::<Vec<_>>());
-        Some(Self { shown, open, losses, rows })
+        let columns = [vec![0], dataset.list.columns(open.methods())].concat();
+        Some(Self { shown, open, losses, rows, columns })
     }
 
     /// The row of a material.

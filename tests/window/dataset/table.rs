@@ -123,6 +123,29 @@ fn the_table_sorts_by_its_heads_and_has_one_range() {
     wait_in(&mut window, "the values", |window| range(window).is_none());
 }
 
+#[needs(adapter)]
+fn a_column_that_is_dragged_has_its_number_in_another_place_also_in_sessions() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = on_table(&dataset(folders(folder.path()), None));
+    wait(&mut window, "the summary", |app| summary::drawn(app.shown()).is_some());
+    let places = |window: &Window<'_>| {
+        ["ours", "theirs"].map(|of| {
+            let head = window.get_by_label_contains(&format!("Sort by {of}")).rect();
+            let cell = window.get_by_label(&format!("Cell a, {of}")).rect();
+            (head, cell.left())
+        })
+    };
+    let [ours, theirs] = places(&window);
+    let to = (theirs.0.center() - ours.0.min) / ours.0.size();
+    drag_primary(&mut window, ours.0, vec2(0.5, 0.5), to);
+    assert_eq!(places(&window), [theirs, ours]);
+    assert_eq!(window.model().dataset.list.order, ListOrder::Name, "a drag sorts nothing");
+    let list = window.model().session().dataset.unwrap().list;
+    assert_eq!(list["methods"], json!(["theirs", "ours"]));
+    click(&mut window, "Cell a, theirs");
+    assert_eq!(window.model().chosen_prediction().map(|one| one.slot), Some(2));
+}
+
 /// The head of a method.
 fn head_of(window: &Window<'_>, method: &str) -> String {
     window.get_by_label_contains(&format!("Sort by {method}")).accesskit_node().label().unwrap_or_default()

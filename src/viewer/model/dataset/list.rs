@@ -76,6 +76,8 @@ pub struct ListView {
     /// Parts of names, in lower case.
     pub search: String,
     pub filter: ListFilter,
+    /// The methods in the order of their columns, by name; those that are not among them come last.
+    pub methods: Vec<String>,
 }
 
 impl Default for ListView {
@@ -86,6 +88,7 @@ impl Default for ListView {
             is_reversed: false,
             search: String::new(),
             filter: ListFilter::All,
+            methods: Vec::new(),
         }
     }
 }
@@ -114,6 +117,22 @@ impl ListView {
             rows.reverse();
         }
         rows.into_iter().map(|(row, _)| row).collect()
+    }
+
+    /// The columns of these methods, counted from 1, in their order.
+    pub fn columns(&self, methods: &[String]) -> Vec<usize> {
+        let place = |column: &usize| self.methods.iter().position(|one| *one == methods[column - 1]);
+        let mut columns: Vec<usize> = (1..=methods.len()).collect();
+        columns.sort_by_key(|column| place(column).unwrap_or(usize::MAX));
+        columns
+    }
+
+    /// Moves a column of these methods to the place of another.
+    pub fn move_column(&mut self, methods: &[String], column: usize, to: usize) {
+        let mut columns = self.columns(methods);
+        columns.retain(|one| *one != column);
+        columns.insert(to.min(columns.len()), column);
+        self.methods = columns.into_iter().map(|column| methods[column - 1].clone()).collect();
     }
 
     /// Sorts by `order`, or the other way round where it is sorted so.
