@@ -67,22 +67,27 @@ fn the_legend_and_the_drawer_move_no_pane() {
     assert!(window.model().inspection.pins.is_empty(), "the second press removes the pin of the first");
 }
 
+/// Drags an edge of a panel sideways.
+pub fn drag_edge(window: &mut Window<'_>, x: f32, by: f32) {
+    let edge = egui::pos2(x, 400.0);
+    window.event(egui::Event::PointerMoved(edge));
+    window.run_steps(2);
+    window.event(primary(edge, true));
+    window.run_steps(2);
+    for share in [0.2, 0.6, 1.0] {
+        window.event(egui::Event::PointerMoved(edge + vec2(share * by, 0.0)));
+        window.run_steps(2);
+    }
+    window.event(primary(edge + vec2(by, 0.0), false));
+    window.run_steps(12);
+}
+
 /// The side panel has the width that the hand gives it, also at the next start.
 #[needs(adapter)]
 fn the_side_panel_keeps_the_width_that_it_is_given() {
     let mut window = built_in();
     let before = window.model().settings.side_width;
-    let edge = egui::pos2(1200.0 - before, 400.0);
-    window.event(egui::Event::PointerMoved(edge));
-    window.run_steps(2);
-    window.event(primary(edge, true));
-    window.run_steps(2);
-    for by in [20.0, 60.0, 100.0] {
-        window.event(egui::Event::PointerMoved(edge - vec2(by, 0.0)));
-        window.run_steps(2);
-    }
-    window.event(primary(edge - vec2(100.0, 0.0), false));
-    window.run_steps(12);
+    drag_edge(&mut window, 1200.0 - before, -100.0);
     let after = window.model().settings.side_width;
     assert!((after - before - 100.0).abs() < 20.0, "{before} to {after}");
 }

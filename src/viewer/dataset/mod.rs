@@ -48,9 +48,13 @@ impl DatasetUi {
             // In a narrow window the panes keep most of the room.
             let most = (0.3 * ui.ctx().content_rect().width()).max(170.0);
             let width = table::width(matrix.open.methods().len()).min(most);
+            let width = shown.model.settings.list_width.unwrap_or(width);
             let panel =
                 bare(egui::Panel::left("materials"), ui).default_size(width).size_range(150.0..=720.0);
-            panel.show(ui, |ui| table.ui(ui, next));
+            let now = panel.show(ui, |ui| table.ui(ui, next)).response.rect.width();
+            if (now - width).abs() > 1.0 {
+                next.settings.list_width = Some(now);
+            }
         }
         has_pictures
     }

@@ -38,6 +38,8 @@ pub struct Settings {
     pub has_dragged: bool,
     /// Width of the side panel, in points.
     pub side_width: f32,
+    /// Width of the list of materials, in points, where it was changed.
+    pub list_width: Option<f32>,
     /// Whether a left-drag moves the highlight under the pointer, instead of the light.
     pub highlight_follows: bool,
     /// Size of the window's text and controls: 1 is the size of the system.
@@ -62,6 +64,7 @@ impl Default for Settings {
             side_panel: true,
             has_dragged: false,
             side_width: 320.0,
+            list_width: None,
             highlight_follows: false,
             ui_scale: 1.0,
             window: None,

@@ -146,6 +146,25 @@ fn a_column_that_is_dragged_has_its_number_in_another_place_also_in_sessions() {
     assert_eq!(window.model().chosen_prediction().map(|one| one.slot), Some(2));
 }
 
+#[needs(adapter)]
+fn the_list_keeps_the_width_that_it_is_given() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folders(folder.path()), None);
+    let mut window = on_dataset(&dataset);
+    let left = |window: &Window<'_>| pane(window, "GROUND TRUTH  a").left();
+    let before = left(&window);
+    assert_eq!(window.model().settings.list_width, None);
+    stillness::drag_edge(&mut window, before - 1.0, 80.0);
+    let after = left(&window);
+    assert!((after - before - 80.0).abs() < 20.0, "{before} to {after}");
+    // In the next window.
+    let settings = window.model().settings.clone();
+    let mut window = on_table(&dataset);
+    edit(&mut window, |model| (model.settings = settings, model.dataset.show_table(false)).0);
+    window.run_steps(4);
+    assert!((left(&window) - after).abs() < 2.0, "{after}, then {}", left(&window));
+}
+
 /// The head of a method.
 fn head_of(window: &Window<'_>, method: &str) -> String {
     window.get_by_label_contains(&format!("Sort by {method}")).accesskit_node().label().unwrap_or_default()
