@@ -86,6 +86,26 @@ fn the_saved_view_has_the_pixels_of_the_window_with_a_caption() {
 }
 
 #[needs(adapter)]
+fn the_saved_view_of_a_narrow_window_has_the_statistics() {
+    let mut window = with_differences();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("view.png");
+    window.set_size(vec2(640.0, 500.0));
+    window.run_steps(4);
+    save(&mut window, SaveKind::View, &path);
+    let whole = image::open(&path).unwrap().to_rgb8();
+    assert_eq!(whole.width(), 640);
+    // Over the whole width were the colours of the range.
+    let is_coloured = |x: u32| {
+        (whole.height() - CAPTION - 92..whole.height() - CAPTION).any(|y| {
+            let [r, g, b] = whole.get_pixel(x, y).0;
+            r.max(g).max(b) - r.min(g).min(b) > 60
+        })
+    };
+    assert!((200..220).any(is_coloured) && !(560..636).any(is_coloured));
+}
+
+#[needs(adapter)]
 fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     let folder = tempfile::tempdir().unwrap();
     let mut first = on_files(strips(folder.path(), ["gt.png", "p.png"]));

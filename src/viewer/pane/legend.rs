@@ -22,12 +22,15 @@ const ERROR_MAP: &str = "error map (all scenes)";
 /// Height of the histograms and of the colour bar below them, in points.
 pub const HISTOGRAM: f32 = 54.0;
 pub const BAR: f32 = 12.0;
-/// Widths of the controls and of the statistics, in points.
+/// Widths of the controls, of their texts in pictures, and of the statistics, in points.
 const CONTROLS: f32 = 184.0;
-pub const STATISTICS: f32 = 396.0;
+const LABELS: f32 = 148.0;
+pub const STATISTICS: f32 = 366.0;
 /// Least height of a count that is not 0, and side of the mark of what lies beyond the axis, in points.
 const LEAST_MARK: f32 = 4.0;
 const BEYOND: f32 = 6.0;
+/// Least width of the histograms, in points.
+const LEAST_SCALE: f32 = 48.0;
 /// How far from 0 the axis goes in units of the range, before there are histograms.
 const AXIS: f64 = 1.5;
 
@@ -76,14 +79,16 @@ impl<'a> LegendStrip<'a> {
     pub fn ui(&self, ui: &mut egui::Ui, next: &mut Model) {
         let next = &mut next.view.display.differences;
         ui.horizontal_top(|ui| {
-            ui.allocate_ui(vec2(CONTROLS, HISTOGRAM + BAR), |ui| {
+            let width = if self.shown.is_picture { LABELS } else { CONTROLS };
+            ui.allocate_ui(vec2(width, HISTOGRAM + BAR), |ui| {
                 ui.vertical(|ui| match self.shown.is_picture {
                     true => self.labels(ui),
                     false => self.controls(ui, next),
                 });
             });
-            let statistics = if ui.available_width() > STATISTICS + 200.0 { STATISTICS } else { 0.0 };
-            let width = (ui.available_width() - statistics - 16.0).max(80.0);
+            let has_room = self.shown.is_picture || ui.available_width() > STATISTICS + 230.0;
+            let statistics = if has_room { STATISTICS } else { 0.0 };
+            let width = (ui.available_width() - statistics - 16.0).max(LEAST_SCALE);
             self.scale(ui, width, next);
             if statistics > 0.0 {
                 ui.vertical(|ui| self.statistics(ui));
