@@ -12,11 +12,13 @@
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
 //! | [`report`] | results with their settings as values, and their tables |
 //! | [`photograph`] | renderings against photographs of the real material |
+//! | [`blind`] | whether an observer sees the difference of two things |
 //! | [`dataset`] | methods over the materials of a data set, with a folder of results |
 //! | [`conform`] | whose renderer gave out radiances at known points |
 //! | [`schema`] | the JSON Schema of each report |
 
 pub mod analyses;
+pub mod blind;
 pub mod conform;
 pub mod dataset;
 pub mod diagnose;

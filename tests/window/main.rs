@@ -5,6 +5,7 @@
 
 mod assumptions;
 mod bar;
+mod blind;
 mod damaged;
 mod dataset;
 mod differences;

@@ -113,6 +113,11 @@ pub const HELP: &[(&str, &[Line])] = &[
             ),
             line("Down / Up, Ctrl + Tab", "next / previous prediction; Home / End: first / last", &[]),
             line("G or Shift (hold)", "show the ground truth in every pane", &[]),
+            line(
+                "Menu, Compare blind",
+                "whether one sees the difference of two materials: is X A or B? A / B answers, Esc ends",
+                &[],
+            ),
             line("X", "swap prediction and ground truth", &[(NONE, Key::X, |m| m.swapped ^= true)]),
             line("C", "layout: side by side, wipe, single", &[(NONE, Key::C, display::cycle_layout)]),
             line(

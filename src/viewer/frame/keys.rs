@@ -7,7 +7,7 @@ use eframe::egui::{self, Key, Modifiers, RichText};
 use svbrdf_files::read::ReadOptions;
 
 use crate::frame::actions::{Action, HELP, Line};
-use crate::frame::light_and_view;
+use crate::frame::{blind, light_and_view};
 use crate::jobs::answers::Answers;
 use crate::loss::losses::ComputeLosses;
 use crate::model::{Model, display, opening};
@@ -58,8 +58,11 @@ fn is_with_shift(event: &egui::Event, digit: Key) -> bool {
     modifiers.shift_only() && (*key == digit || *physical_key == Some(digit))
 }
 
-/// Carries out keys, and opens files that were dropped on the window: in place of the built-in materials, otherwise as predictions.
+/// Carries out keys, those of a blind comparison alone where there is one, and opens files that were dropped on the window: in place of the built-in materials, otherwise as predictions.
 pub fn act(ctx: &egui::Context, model: &mut Model, answers: &Answers) {
+    if model.blind.is_some() {
+        return blind::press(ctx, model);
+    }
     press(ctx, model, answers);
     let paths: Vec<PathBuf> =
         ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());

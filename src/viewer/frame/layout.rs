@@ -9,7 +9,7 @@ use crate::dataset::{self, places::DatasetUi};
 use crate::error::Error;
 use crate::files;
 use crate::frame::content::{self, CAPTION};
-use crate::frame::{inspection, keys, messages, side, status, top};
+use crate::frame::{blind, inspection, keys, messages, side, status, top};
 use crate::jobs::{Jobs, SAVING, Shown};
 use crate::model::Model;
 use crate::model::view::WindowGeometry;
@@ -53,7 +53,9 @@ impl WindowUi {
         if model.is_modal() {
             return;
         }
-        dataset::turn_pages(ctx, model, jobs);
+        if model.blind.is_none() {
+            dataset::turn_pages(ctx, model, jobs);
+        }
         if !model.dataset.table.has_pictures {
             self.viewport.gestures(ctx, model);
         }
@@ -68,6 +70,10 @@ impl WindowUi {
         gpu: Option<&mut GpuView>,
     ) {
         let model = shown.model;
+        if let Some(blind) = &model.blind {
+            bare(egui::Panel::top("blind"), ui).show(ui, |ui| blind::ui(ui, blind, next));
+            return self.viewport.ui(ui, shown, next, gpu);
+        }
         bare(egui::Panel::top("top"), ui).show(ui, |ui| top::ui(ui, shown.shown(), next));
         bare(egui::Panel::bottom("status"), ui)
             .show(ui, |ui| status::ui(ui, shown, &self.viewport, self.dataset.told(shown.shown()), next));

@@ -9,7 +9,7 @@ use svbrdf_gpu::Gpu;
 use crate::error::Error;
 use crate::jobs::Shown;
 use crate::jobs::answers::{Pace, Question, Work};
-use crate::model::Model;
+use crate::model::{Model, blind};
 use crate::widgets::answered;
 
 /// The scales of text and controls that the menu offers, in percent.
@@ -21,6 +21,7 @@ pub fn ui(ui: &mut egui::Ui, Shown { model, jobs }: Shown<'_>, next: &mut Model)
         ui.toggle_value(&mut next.dataset.list.is_open, list).on_hover_text("Beside the panes");
         ui.separator();
     }
+    compare_blind(ui, model, next);
     let theme = if model.settings.dark { "Light theme" } else { "Dark theme" };
     if ui.button(theme).on_hover_text("Colours of the window").clicked() {
         next.settings.dark ^= true;
@@ -55,6 +56,22 @@ pub fn ui(ui: &mut egui::Ui, Shown { model, jobs }: Shown<'_>, next: &mut Model)
         }
     });
     adapters.response.on_hover_text("That of the next start; `--adapter` counts before it");
+}
+
+/// What the chosen prediction can be compared with blind.
+fn compare_blind(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
+    let Some(chosen) = model.chosen_prediction() else { return };
+    let menu = ui.menu_button("Compare blind", |ui| {
+        for (index, other) in model.materials.all.iter().enumerate() {
+            let name = format!("{}  {}", other.number(), other.name());
+            if other.id() != chosen.id() && ui.button(name).clicked() {
+                blind::start(next, index);
+                ui.close();
+            }
+        }
+    });
+    let hover = "Is X the chosen prediction, or this? 20 trials without names (ABX)";
+    menu.response.on_hover_text(hover);
 }
 
 /// The names of the graphics adapters.

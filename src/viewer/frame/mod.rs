@@ -1,6 +1,7 @@
 //! Application: the frame of the window, which holds the model, the jobs and the user interface together.
 
 pub mod actions;
+pub mod blind;
 pub mod content;
 pub mod crash;
 pub mod effects;
@@ -145,8 +146,9 @@ impl App {
 
     /// Gives the window the name of what is open.
     fn name_window(&mut self, ctx: &egui::Context) {
-        let of_dataset = dataset::title(Shown { model: &self.parts.model, jobs: &self.parts.jobs });
-        let open = of_dataset.or_else(|| self.parts.model.materials.title());
+        let Parts { model, jobs, .. } = &self.parts;
+        let open = || dataset::title(Shown { model, jobs }).or_else(|| model.materials.title());
+        let open = if model.blind.is_some() { Some("Compare blind".to_owned()) } else { open() };
         let title = open.map_or_else(|| NAME.to_owned(), |open| format!("{open} - {NAME}"));
         // Assistive software asks the root for the name of the window.
         ctx.accesskit_node_builder(egui::accesskit_root_id(), |root| root.set_label(title.as_str()));

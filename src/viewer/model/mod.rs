@@ -2,6 +2,7 @@
 //!
 //! What an edit needs outside of it, as a file to be read, it adds to [`Model::effects`].
 
+pub mod blind;
 pub mod dataset;
 pub mod dialogs;
 pub mod display;
@@ -30,6 +31,7 @@ use svbrdf_files::source::MaterialSource;
 
 use crate::error::Error;
 use crate::message::{Message, MessageList};
+use crate::model::blind::Blind;
 use crate::model::dataset::DatasetState;
 use crate::model::dialogs::{Dialogs, SaveRequest};
 use crate::model::inspection::Inspection;
@@ -53,6 +55,8 @@ pub struct Model {
     pub materials: MaterialList,
     pub dataset: DatasetState,
     pub photograph: PhotographState,
+    /// The blind comparison that has the window to itself.
+    pub blind: Option<Blind>,
     pub inspection: Inspection,
     /// The inspected texels of a session whose materials are being read.
     pub inspected_later: Option<Inspection>,

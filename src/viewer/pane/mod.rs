@@ -59,6 +59,9 @@ pub struct Displayed<'a> {
 impl<'a> Displayed<'a> {
     /// What the panes of the window display.
     pub fn ask(shown: Shown<'a>) -> Self {
+        if let Some(blind) = &shown.model.blind {
+            return Self::plain(shown, blind.materials());
+        }
         let losses = match shown.model.dataset.open {
             Some(_) => matrix::of_window(shown),
             None => DrawnLosses::ask(shown).of_predictions(),
@@ -72,19 +75,24 @@ impl<'a> Displayed<'a> {
         Self { auto_range: themselves.auto_range.or(displayed.auto_range), ..displayed }
     }
 
-    fn of(shown @ Shown { model, jobs }: Shown<'a>, materials: Vec<LoadedMaterial>) -> Self {
-        let open_photograph = DisplayedPhotograph::ask(shown, &materials);
-        let mut displayed = Self {
+    /// Materials alone.
+    fn plain(Shown { model, jobs }: Shown<'a>, materials: Vec<LoadedMaterial>) -> Self {
+        Self {
             model,
             jobs,
             is_picture: false,
             peeks: false,
             materials,
             losses: Vec::new(),
-            open_photograph,
+            open_photograph: None,
             difference: None,
             auto_range: None,
-        };
+        }
+    }
+
+    fn of(shown: Shown<'a>, materials: Vec<LoadedMaterial>) -> Self {
+        let open_photograph = DisplayedPhotograph::ask(shown, &materials);
+        let mut displayed = Self { open_photograph, ..Self::plain(shown, materials) };
         if displayed.photograph().is_none() {
             displayed.difference = difference::displayed(shown, &displayed.materials);
         }

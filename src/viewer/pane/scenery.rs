@@ -53,6 +53,10 @@ impl Displayed<'_> {
             let reference = if difference { 0 } else { reference };
             PaneContent { index, reference, mode, difference, photograph: PhotographUse::Absent }
         };
+        if self.model.blind.is_some() {
+            let value = |index| PaneContent { difference: false, ..content(index, 0, DisplayMode::Value) };
+            return (0..self.materials().len()).map(value).collect();
+        }
         if self.photograph().is_some() {
             return self.photograph_contents();
         }
@@ -70,7 +74,7 @@ impl Displayed<'_> {
 
     /// The panes of predictions that are not there, side by side with the others.
     pub fn empty(&self) -> impl Iterator<Item = (usize, &Missing)> {
-        let is_seen = self.view().display.layout == Layout::SideBySide;
+        let is_seen = self.view().display.layout == Layout::SideBySide && self.model.blind.is_none();
         let before = usize::from(self.photograph().is_some());
         self.model
             .dataset
@@ -132,6 +136,9 @@ impl Displayed<'_> {
 
     /// The name of material `index` in titles. Of names that are too long, what all have in common is left out.
     fn title(&self, index: usize, most: usize) -> String {
+        if self.model.blind.is_some() {
+            return self.materials()[index].name().to_owned();
+        }
         let labels: Vec<String> = self.materials().iter().map(LoadedMaterial::label).collect();
         let labels: Vec<&str> = labels.iter().map(String::as_str).collect();
         let (ground_truth, predictions) = labels.split_at(labels.len().min(1));

@@ -33,8 +33,9 @@ pub fn title_bar(
     next: &mut Model,
 ) {
     let is_material = content.photograph != PhotographUse::Displayed;
-    let prediction = content.index.checked_sub(1).filter(|_| is_material);
-    let chosen = is_material && content.index == shown.chosen() && content.index != 0;
+    let is_blind = shown.model.blind.is_some();
+    let prediction = content.index.checked_sub(1).filter(|_| is_material && !is_blind);
+    let chosen = prediction.is_some() && content.index == shown.chosen() && content.index != 0;
     let text = text(shown, content, usize::MAX, true);
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
     let replaced = chosen && shown.view().display.is_replaced();
@@ -47,7 +48,7 @@ pub fn title_bar(
     let back =
         inset(Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()), vec2(2.0, 2.0));
     let painter = ui.painter_at(rect);
-    let colour = if content.index == 0 || !is_material {
+    let colour = if prediction.is_none() && !is_blind {
         theme::ground_truth(ui.visuals())
     } else {
         ui.visuals().text_color()

@@ -205,7 +205,8 @@ impl Viewport {
         placed: &Placed,
     ) {
         let state = shown.view();
-        if state.display.projection == Projection::Flat && content.mode == DisplayMode::Value {
+        let has_numbers = content.mode == DisplayMode::Value && shown.model.blind.is_none();
+        if state.display.projection == Projection::Flat && has_numbers {
             let (index, difference) = (content.index, content.difference);
             placed.paint_numbers(painter, |texel| match (content.photograph, shown.photographs()) {
                 (PhotographUse::Displayed, Some(all)) => all.at(index, texel).map(f64::from).to_vec(),
