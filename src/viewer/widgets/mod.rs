@@ -193,7 +193,7 @@ fn columns(ui: &mut egui::Ui, table: &Table, range: Range<usize>, most: f32) {
 fn value(ui: &mut egui::Ui, cell: &Cell) {
     let text = RichText::new(drawable(&cell.text())).small();
     let is_words = matches!(cell, Cell::Text(_));
-    aligned(ui, Some(cell), if is_words { text } else { text.monospace() });
+    aligned(ui, Some(cell), if is_words { text } else { text.monospace().size(11.0) });
 }
 
 /// Words to the left, numbers, and what stands above them, to the right.
