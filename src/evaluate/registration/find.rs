@@ -8,7 +8,7 @@ use svbrdf_core::material::resize::{self, Filter, Kernel};
 use svbrdf_core::material::{Mask, Material};
 use svbrdf_core::math::real::Real;
 
-use super::Registration;
+use super::{Registration, in_one_size};
 
 /// Texels of a prediction that it is compared on.
 const TEXELS: usize = 1024;
@@ -119,13 +119,10 @@ pub fn registered<T: Real>(
     let ([w, h], [width, height]) = (truth.size(), first.size());
     let note = format!("{way} of a ground truth of {w} x {h} to predictions of {width} x {height}");
     let mask = mask.and_then(|mask| way.of_mask(&mask, first.size()));
-    let [part, _] = way.applied([truth, first])?;
-    let lie = |one: &Material<T>| match one.size() == truth.size() {
-        true => way.applied([one, first]).map(|[part, _]| part),
-        false => way.applied([truth, one]).map(|[_, prediction]| prediction),
-    };
-    let predictions = materials[1..].iter().map(lie).collect::<Result<Vec<_>, Error>>()?;
-    let materials = std::iter::once(part).chain(predictions).collect();
+    let registered: Vec<_> = materials[1..].iter().map(|one| (Some(one), Some(way))).collect();
+    let (part, predictions) = in_one_size(truth, &registered).transpose()?.unzip();
+    let predictions = predictions.into_iter().flatten().flatten();
+    let materials = part.map(Ok).into_iter().chain(predictions).collect::<Result<_, Error>>()?;
     Ok(Registered { materials, mask, note: Some(note) })
 }
 

@@ -86,12 +86,15 @@ impl Registration {
 /// A material in one size with others, or why there is none; `None` where it stays as it is.
 pub type InOneSize<T> = Option<Result<Material<T>, Error>>;
 
+/// A ground truth and its predictions in one size.
+pub type AllInOneSize<T> = (Material<T>, Vec<InOneSize<T>>);
+
 /// A ground truth and its predictions, each with how it is registered, in the size of the first one whose registration is known and
-/// that has another size than the ground truth; `None` without one.
+/// that has another size than the ground truth; `None` without one. An error where that one is no such part of the ground truth.
 pub fn in_one_size<T: Real>(
     truth: &Material<T>,
     predictions: &[(Option<&Material<T>>, Option<Registration>)],
-) -> Option<(Material<T>, Vec<InOneSize<T>>)> {
+) -> Option<Result<AllInOneSize<T>, Error>> {
     let is_other = |one: &&Material<T>| one.size() != truth.size();
     let (way, sample) = predictions.iter().find_map(|(one, way)| Some(((*way)?, one.filter(is_other)?)))?;
     let part = |whole: &Material<T>| way.applied([whole, sample]).map(|[part, _]| part);
@@ -101,7 +104,7 @@ pub fn in_one_size<T: Real>(
             (*its == Some(way)).then(|| way.applied([truth, other]).map(|[_, prediction]| prediction))
         }
     };
-    Some((part(truth).ok()?, predictions.iter().map(of).collect()))
+    Some(part(truth).map(|cut| (cut, predictions.iter().map(of).collect())))
 }
 
 /// The place of a prediction on its ground truth.

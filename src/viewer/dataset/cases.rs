@@ -153,7 +153,7 @@ impl AskCase {
         let all: Vec<_> = places.iter().zip(&*columns).map(of).collect();
         let all: Vec<_> =
             all.iter().map(|(one, way)| (one.as_ref().map(|one| one.material()), *way)).collect();
-        let (cut, changed) = in_one_size(truth.material(), &all)?;
+        let (cut, changed) = in_one_size(truth.material(), &all)?.ok()?;
         let gpu = self.given.0.0.as_ref();
         for (one, changed) in columns.iter_mut().zip(changed) {
             let (Ok(read), Some(material)) = (&*one, changed) else { continue };

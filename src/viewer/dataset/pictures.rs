@@ -198,7 +198,7 @@ impl ReadRow {
         let [Ok(truth), predictions @ ..] = cells else { return };
         let ways = (1..).map(|column| self.open.registration(column));
         let all: Vec<_> = predictions.iter().map(|one| one.as_ref().ok()).zip(ways).collect();
-        let Some((cut, changed)) = in_one_size(truth, &all) else { return };
+        let Some(Ok((cut, changed))) = in_one_size(truth, &all) else { return };
         *truth = cut;
         for (one, changed) in predictions.iter_mut().zip(changed) {
             if let Some(changed) = changed {
