@@ -202,12 +202,11 @@ fn function(analysis: &AnyAnalysis, report: &str) -> String {
             let _ = write!(given, r#""{name}": {name}, "#);
         }
     }
-    let is_masked = analysis.paired || *name == "rank";
-    for [name, kind, about] in &BESIDE[..=usize::from(is_masked)] {
+    for [name, kind, about] in &BESIDE[..=usize::from(analysis.paired)] {
         let _ = writeln!(parameters, "    {name}: {kind} | None = None,");
         let _ = writeln!(docs, "        {name}: {about}");
     }
-    let beside = if is_masked { ", register=register, mask=mask" } else { ", register=register" };
+    let beside = if analysis.paired { ", register=register, mask=mask" } else { ", register=register" };
     let about = about.replace("Prints", "Computes").replace("Writes", "Computes").replace(" to a file", "");
     let report = if report == OF_PACKAGE { format!("_map.{report}") } else { format!("_reports.{report}") };
     let details = details.replace("--", "");

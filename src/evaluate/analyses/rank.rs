@@ -179,6 +179,7 @@ impl Analysis for RankReport {
     const NAME: &'static str = "rank";
     const ANSWERS: &'static str = "many predictions, or methods over a data set";
     const GROUP: &'static str = "Compare";
+    const PAIRED: bool = true;
     const EXAMPLES: &'static [&'static str] = &[
         "gt.png 'out/*.png'",
         "--dataset gt/ ours/ theirs/ -o table.tex",
