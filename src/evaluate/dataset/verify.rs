@@ -168,6 +168,7 @@ fn open(value: &str, written: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::Repetition;
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt as _, SeedableRng as _};
 
@@ -201,6 +202,24 @@ theirs & 0.1098 & [0.0877, 0.1321] & 0.0940 & 12 \\\\
             assert!(is_version || found[0].is_of_files == (line == 2 || line == 3), "{found:?}");
         }
         assert_eq!(differences(TABLE, TABLE), []);
+    }
+
+    #[test]
+    fn the_commit_of_a_build_is_told_and_is_no_difference() {
+        let built = |commit| Repetition::new("svbrdf rank --dataset gt ours".to_owned()).at(commit);
+        let line = |commit| format!("% {}\n", built(commit));
+        let [with, other] = ["0123456789abcdef", "fedcba9876543210"].map(|commit| line(Some(commit)));
+        let without = line(None);
+        assert!(
+            with.starts_with("% repeat with svbrdf ") && with.contains("+0123456789ab: svbrdf rank"),
+            "{with}"
+        );
+        assert_eq!(with.replace("+0123456789ab", ""), without);
+        for table in [&other, &without] {
+            assert_eq!([differences(&with, table), differences(table, &with)], [vec![], vec![]]);
+            assert_eq!(command(&with), command(table));
+        }
+        assert_eq!(differences(&with, &without.replace(" gt ", " g ")).len(), 1, "a planted fault");
     }
 
     #[test]
