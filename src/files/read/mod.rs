@@ -125,16 +125,15 @@ impl<'a> MaterialPath<'a> {
     pub fn dependencies(&self) -> Result<Dependencies, Error> {
         let used = self.used()?;
         let located = formats::locate(self.path, &used.options.with_preset(), &used.bindings)?;
-        let mut hash = Sha256::new_with_prefix(format!("{used:?} {located:?}"));
-        let mut content = Sha256::new();
+        let mut hash = Sha256::new();
+        hash.update(format!("{used:?} {located:?}"));
         let mut files = Vec::new();
         for file in located.files() {
             let digest = file.digest()?;
             hash.update(&digest);
-            content.update(&digest);
-            files.push(file.path().to_owned());
+            files.push((file.path().to_owned(), digest));
         }
-        Ok(Dependencies { sha256: hexadecimal(hash), content: hexadecimal(content), files })
+        Ok(Dependencies { sha256: hexadecimal(hash), files })
     }
 
     /// The names that the material may have once it is read, found without its pixels; at least one.
@@ -159,10 +158,8 @@ impl<'a> MaterialPath<'a> {
 pub struct Dependencies {
     /// In hexadecimal: of the options, also those of the sidecar file, of what was located by names, listings and documents, and of the content of `files`.
     pub sha256: String,
-    /// In hexadecimal: of the content of `files` alone, wherever they are.
-    pub content: String,
-    /// Every file that may be decoded.
-    pub files: Vec<PathBuf>,
+    /// Every file that may be decoded, with its SHA-256.
+    pub files: Vec<(PathBuf, String)>,
 }
 
 /// Reads a packed or layered image from memory; `name` is the name of the material.

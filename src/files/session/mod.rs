@@ -53,9 +53,9 @@ pub struct Session {
     /// Display and loss settings of the window.
     #[serde(default, skip_serializing_if = "SessionWindow::is_empty")]
     pub window: SessionWindow,
-    /// Of a picture: the digests of the files of its materials, `None` for a built-in one.
+    /// Of a picture: the files of its materials, each with its SHA-256.
     #[serde(rename = "sha256", default, skip_serializing_if = "Vec::is_empty")]
-    digests: Vec<Option<String>>,
+    digests: Vec<(PathBuf, String)>,
 }
 
 impl Session {
@@ -123,14 +123,17 @@ impl Session {
             Place::BuiltIn(_) => None,
         });
         let photograph = self.photograph.iter_mut().map(|photograph| &mut photograph.path);
-        materials.chain(photograph).chain(self.dataset.iter_mut().flat_map(SessionDataset::paths_mut))
+        materials
+            .chain(photograph)
+            .chain(self.digests.iter_mut().map(|(path, _)| path))
+            .chain(self.dataset.iter_mut().flat_map(SessionDataset::paths_mut))
     }
 
     /// The files of a session that was read from `path` which lie outside of its folder.
     pub fn outside(&self, path: &Path) -> Vec<PathBuf> {
         let folder = path.parent().unwrap_or(Path::new(""));
         let convention = Some(PathBuf::from(&self.convention)).filter(|path| convention::is_file(path));
-        let mut session = self.clone();
+        let mut session = Self { digests: Vec::new(), ..self.clone() };
         let all = session.paths_mut().map(|path| path.clone()).chain(convention);
         all.filter(|file| is_outside(file, folder)).collect()
     }
@@ -152,17 +155,20 @@ impl Session {
     /// # Errors
     /// [`Error::Internal`].
     pub fn entry(&self, path: &Path) -> Result<(&'static str, String), Error> {
-        let digests = self.materials.iter().map(digest).collect();
+        let files = |one: &MaterialSource| {
+            let found = MaterialPath::new(one.place.path()?, &one.options).dependencies();
+            found.ok().map(|found| found.files)
+        };
+        let digests = self.materials.iter().filter_map(files).flatten().collect();
         Ok((picture::KEYWORD, picture::written(&Self { digests, ..self.clone() }.json(path)?)))
     }
 
     /// The files of the materials that have changed since the picture was saved which the session is from.
     pub fn changed(&self) -> Vec<&Path> {
-        let all = self.materials.iter().zip(&self.digests);
-        let has_changed = |(material, saved): &(&MaterialSource, &Option<String>)| {
-            saved.is_some() && digest(material).is_some_and(|found| Some(found) != **saved)
+        let has_changed = |(path, saved): &&(PathBuf, String)| {
+            NamedFile::by_user(path).digest().is_ok_and(|found| found != *saved)
         };
-        all.filter(has_changed).map(|(material, _)| material.location()).collect()
+        self.digests.iter().filter(has_changed).map(|(path, _)| path.as_path()).collect()
     }
 
     /// What is written to the file `path`.
@@ -181,12 +187,6 @@ impl Session {
         }
         Ok(value)
     }
-}
-
-/// The digest of the files of a material; `None` where it has none, or they cannot be read.
-fn digest(material: &MaterialSource) -> Option<String> {
-    let found = MaterialPath::new(material.place.path()?, &material.options).dependencies();
-    found.ok().map(|found| found.content)
 }
 
 /// The path that `session` calls `name`: of a file, a folder or a prefix, and of nothing that waits or has no end.
