@@ -138,6 +138,9 @@ impl AnalysisArgs {
     pub fn job(self, given: &Specified) -> NewJob {
         let Self { analysis, matches, output, comparison: args, pair } = self;
         let mut comparison = ComparisonJob::with_predictions(&args, given)?;
+        if !analysis.paired {
+            comparison.materials.refuse_mask(&format!("{} is over all texels", analysis.name))?;
+        }
         let precision = scenes::value(&matches, "precision").unwrap_or_default();
         let typed = scenes::options(&matches)?;
         let (convention, scenes) = pair.protocol.decided(args.convention.as_ref(), typed, given)?;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use svbrdf_core::loss::check_same_size;
+use svbrdf_core::material::Material;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
@@ -111,7 +112,9 @@ impl Job for RenderJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
         let opened = self.comparison.materials.open::<f32>()?;
         check_output(&self.output)?;
-        let materials = opened.into_all();
+        let mask = opened.mask.clone();
+        let gray = |one: Material<f32>| mask.iter().fold(one, Material::gray_outside);
+        let materials: Vec<_> = opened.into_all().into_iter().map(gray).collect();
         if let ([ground_truth, predictions @ ..], Some(_)) = (materials.as_slice(), self.content.difference) {
             predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
         }

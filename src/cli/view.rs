@@ -12,6 +12,7 @@ use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
 
+use super::args::protocol::MaskArgs;
 use super::args::scenes::{Accuracy, SceneArgs};
 use super::args::{MaterialArgs, Specified, refuse};
 use super::job::{Job, NewJob};
@@ -31,6 +32,9 @@ pub struct ViewArgs {
 
     #[command(flatten)]
     dataset: DatasetArgs,
+
+    #[command(flatten)]
+    mask: MaskArgs,
 
     /// Convention of renderings and losses: a name, which `svbrdf conventions` lists, or a .toml file [default: printed, or as in the
     /// session]
@@ -88,6 +92,8 @@ impl ViewArgs {
             given.refuse::<SceneArgs<Accuracy>>(ONLY_OF_DATASET)?;
             refuse(self.dataset.results.is_some() && !is_session, "results", ONLY_OF_DATASET)?;
         }
+        let reason = "the window compares the texels of a mask of one material, and of data sets and photographs all texels";
+        refuse(self.mask.mask.is_some() && (is_dataset || self.photo.is_some()), "mask", reason)?;
         refuse(materials.reading.both.verbose, "verbose", "the window lists what is noticed and assumed")?;
         if paths.is_empty() {
             materials.refuse_of_built_in(given)?;
@@ -152,7 +158,10 @@ impl ViewArgs {
         }
         let materials = &mut self.materials;
         let scenes = take_scenes(materials)?;
-        let session = session::given(materials)?;
+        let mut session = session::given(materials)?;
+        if let (Some(session), Some(mask)) = (&mut session, &self.mask.mask) {
+            session.mask = Some(mask.to_string().into());
+        }
         let results = self.dataset.results.take();
         let is_of_dataset = session.as_ref().is_some_and(|session| session.dataset.is_some());
         refuse(results.is_some() && !is_of_dataset, "results", ONLY_OF_DATASET)?;
@@ -165,6 +174,7 @@ impl ViewArgs {
             scenes,
             strict: materials.reading.both.strict,
             fit,
+            mask: self.mask.mask.take(),
             ground_truth: sources.next(),
             predictions: sources.collect(),
             dataset: None,

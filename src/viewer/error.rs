@@ -18,6 +18,10 @@ pub enum Error {
     #[error("{0} is not complete yet: save it once it is displayed")]
     Incomplete(&'static str),
 
+    /// What is not computed over the texels of a mask, in words.
+    #[error("{0}")]
+    Masked(&'static str),
+
     /// Of an analysis, a file or a computation.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),

@@ -161,6 +161,29 @@ fn a_picture_with_a_broken_session_is_refused_with_its_reason() {
     }
 }
 
+#[test]
+fn a_session_has_its_mask_in_every_command() {
+    let folder = folder();
+    let of = |name: &str| folder.path().join(name);
+    let half = |x: u32, _: u32| Rgb([if x < 4 { 255 } else { 0 }; 3]);
+    RgbImage::from_fn(8, 8, half).save(of("mask.png")).unwrap();
+    succeed(folder.path(), "strip gt.png a.png --mask mask.png -o strip.png");
+    let loss = |materials: &str| {
+        let table = succeed(folder.path(), &format!("loss {materials} --near 4 --distant 2 --format csv"));
+        table.lines().nth(1).and_then(|row| row.split(',').nth(1)).unwrap().to_owned()
+    };
+    assert_eq!(loss("strip.png"), loss("gt.png a.png --mask mask.png"));
+    assert_ne!(loss("strip.png"), loss("gt.png a.png"), "a planted fault: all texels");
+    succeed(folder.path(), "render strip.png --show roughness -o roughness.exr");
+    let rough = image_of_exr(&of("roughness.exr"));
+    assert!(rough.pixels[4..8].iter().all(|rough| *rough == [1.0; 3]) && rough.pixels[0] != [1.0; 3]);
+    for command in ["blame", "worst", "diagnose", "rank --robust"] {
+        let refused = fail(folder.path(), &format!("{command} strip.png"), 64);
+        assert_has(&refused, &["over all texels, and not over those of a mask"]);
+    }
+    assert_has(&fail(folder.path(), "view --dataset . . --mask mask.png", 64), &["leave out --mask"]);
+}
+
 /// The loss of each built-in prediction in one scene, as the core computes it.
 fn losses_in(scene: Scene) -> Vec<f64> {
     let built_in = samples::load::<f32>().unwrap();

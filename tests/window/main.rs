@@ -15,6 +15,7 @@ mod gestures;
 mod hands;
 mod key_presses;
 mod loss_panel;
+mod mask;
 mod materials;
 mod observed;
 mod order;

@@ -82,7 +82,8 @@ impl MaterialJob {
         let ways: Vec<Registration> = ways.collect::<Result<_, _>>()?;
         refuse(resize_to.is_some() && !ways.is_empty(), "resize-to", "--register decides the size")?;
         let paths = args.paths().cloned().collect();
-        let (mask, roughness) = (None, [None; 2]);
+        let roughness = [None; 2];
+        let mask = session.and_then(|session| session.mask.as_deref()).map(MaskSource::of_session);
         let is_comparison = false;
         Ok(Self { sources, paths, resize_to, ways, mask, is_comparison, roughness, strict, verbose })
     }
@@ -102,15 +103,26 @@ impl MaterialJob {
         }
     }
 
-    /// Compares only the texels of a mask.
+    /// Compares only the texels of a mask; without one, those of the mask of the session, where it has one.
     pub fn mask(&mut self, mask: Option<&MaskSource>) {
-        self.mask = mask.cloned();
+        self.mask = mask.cloned().or_else(|| self.mask.take());
+    }
+
+    /// Refuses the mask of a session where all texels are compared.
+    pub fn refuse_mask(&self, reason: &str) -> Result<(), CommandError> {
+        let problem = || CommandError::Usage(format!("{reason}, and not over those of a mask"));
+        self.mask.as_ref().map_or(Ok(()), |_| Err(problem()))
     }
 
     /// The materials, as a session has them.
     pub fn sources(&self) -> Vec<MaterialSource> {
         let fits = self.resize_to == Some(ResizeTo::GroundTruth);
         self.sources.iter().map(|one| MaterialSource { fit: one.fit || fits, ..one.clone() }).collect()
+    }
+
+    /// The mask, as a session has it.
+    pub fn saved_mask(&self) -> Option<PathBuf> {
+        self.mask.as_ref().map(|mask| mask.to_string().into())
     }
 
     /// The number of predictions.

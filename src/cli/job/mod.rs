@@ -65,7 +65,10 @@ impl ComparisonJob {
 
     /// The comparison in `scene`, to be opened again.
     pub fn saved(&self, scene: Scene, exposure_ev: f32) -> Session {
-        Session::new(self.materials.sources(), scene, self.convention_text.clone(), exposure_ev)
+        let (sources, convention) = (self.materials.sources(), self.convention_text.clone());
+        let mut session = Session::new(sources, scene, convention, exposure_ev);
+        session.mask = self.materials.saved_mask();
+        session
     }
 }
 

@@ -35,11 +35,9 @@ pub fn job(args: RankArgs, given: &Specified) -> NewJob {
     args.output.check(args.comparison.materials.paths())?;
     let mut comparison = ComparisonJob::with_predictions(&args.comparison, given)?;
     comparison.materials.mask(args.mask.mask.as_ref());
-    refuse(
-        args.mask.mask.is_some() && args.robust,
-        "mask",
-        "the order under other questions is over all texels",
-    )?;
+    if args.robust {
+        comparison.materials.refuse_mask("the order under other questions is over all texels")?;
+    }
     let RankArgs { scenes, fail_above, output, robust, .. } = args;
     if robust {
         refuse(fail_above.is_some(), "fail-above", "the order under other questions has no limit")?;

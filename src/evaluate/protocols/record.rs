@@ -1,7 +1,7 @@
 //! A protocol, its parts and how it is written.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -96,6 +96,15 @@ pub enum MaskSource {
 }
 
 impl MaskSource {
+    /// The mask that a session names.
+    pub fn of_session(path: &Path) -> Self {
+        match path.to_str() {
+            Some("alpha") => Self::Alpha,
+            Some("alpha-else-black") => Self::AlphaElseBlack,
+            _ => Self::File(path.to_owned()),
+        }
+    }
+
     /// The picture of this material, where it is one.
     fn file(&self, material: &str) -> Option<NamedFile> {
         let Self::File(path) = self else { return None };

@@ -3,6 +3,7 @@
 
 use serde::de::DeserializeOwned;
 
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::loss::{Comparison, Compute, Request, check_same_size};
 use svbrdf_core::material::{Mask, Material};
 use svbrdf_core::math::real::Real;
@@ -60,17 +61,28 @@ impl<T: Compute> AnalysisInput<'_, T> {
     /// # Errors
     /// Those of [`Comparison::new`] and its own.
     pub fn comparing<R>(&self, of: impl FnOnce(Comparison<'_, T>) -> Result<R, Error>) -> Result<R, Error> {
-        let Some(mask) = &self.mask else {
-            return of(Comparison::new(self.ground_truth, &self.predictions, self.convention)?);
-        };
-        self.each(|prediction| Ok(check_same_size(self.ground_truth, prediction)?))?;
-        let texels = mask.texels();
-        let kept = |material: &Material<T>| material.gathered(&texels, [texels.len(), 1]);
-        let (truth, predictions) = (kept(self.ground_truth), self.each(|one| Ok(kept(one)))?);
-        let predictions: Vec<_> = predictions.iter().collect();
-        let comparison = Comparison::new(&truth, &predictions, self.convention)?;
-        of(comparison.at(self.ground_truth.grid(), &texels))
+        comparing(self.ground_truth, &self.predictions, self.convention, self.mask.as_ref(), of)
     }
+}
+
+/// What `of` makes of a comparison over the texels of a mask.
+///
+/// # Errors
+/// Those of [`Comparison::new`] and of `of`.
+pub fn comparing<T: Compute, R, E: From<CoreError>>(
+    truth: &Material<T>,
+    predictions: &[&Material<T>],
+    convention: Convention,
+    mask: Option<&Mask>,
+    of: impl FnOnce(Comparison<'_, T>) -> Result<R, E>,
+) -> Result<R, E> {
+    let Some(mask) = mask else { return of(Comparison::new(truth, predictions, convention)?) };
+    predictions.iter().try_for_each(|prediction| check_same_size(truth, prediction))?;
+    let texels = mask.texels();
+    let kept = |one: &&Material<T>| one.gathered(&texels, [texels.len(), 1]);
+    let (kept_truth, predictions): (_, Vec<_>) = (kept(&truth), predictions.iter().map(kept).collect());
+    let comparison = Comparison::new(&kept_truth, &predictions.iter().collect::<Vec<_>>(), convention)?;
+    of(comparison.at(truth.grid(), &texels))
 }
 
 /// An analysis of predictions: the report that it gives, and what it is called.

@@ -30,7 +30,7 @@ mod names;
 mod table;
 
 pub use analysis::{
-    Analysis, AnalysisInput, AnalysisOption, NoOptions, OptionValue, SCENE_OPTIONS, Schematic,
+    Analysis, AnalysisInput, AnalysisOption, NoOptions, OptionValue, SCENE_OPTIONS, Schematic, comparing,
 };
 pub use conform::ConformReport;
 pub(crate) use heading::in_mask;

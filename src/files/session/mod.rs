@@ -44,6 +44,10 @@ pub struct Session {
     /// Exposure in stops.
     #[serde(default)]
     pub exposure: f32,
+    /// Which texels are compared, where not all are: `alpha`, `alpha-else-black`, or a picture, in whose path `{}` stands for the name of
+    /// the ground truth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mask: Option<PathBuf>,
     /// The photograph that renderings are compared with.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub photograph: Option<SessionPhotograph>,
@@ -76,8 +80,8 @@ impl Session {
     /// A session without anything of a window.
     pub fn new(materials: Vec<MaterialSource>, scene: Scene, convention: String, exposure: f32) -> Self {
         let (photograph, window) = (None, SessionWindow::default());
-        let (version, dataset, digests) = (VERSION, None, Vec::new());
-        Self { version, materials, scene, convention, exposure, photograph, dataset, window, digests }
+        let (version, mask, dataset, digests) = (VERSION, None, None, Vec::new());
+        Self { version, materials, scene, convention, exposure, mask, photograph, dataset, window, digests }
     }
 
     /// Reads a session file, or the session of a picture; its paths become those from here.
@@ -123,8 +127,13 @@ impl Session {
             Place::BuiltIn(_) => None,
         });
         let photograph = self.photograph.iter_mut().map(|photograph| &mut photograph.path);
+        let mask = self
+            .mask
+            .iter_mut()
+            .filter(|mask| !["alpha", "alpha-else-black"].map(Path::new).contains(&mask.as_path()));
         materials
             .chain(photograph)
+            .chain(mask)
             .chain(self.digests.iter_mut().map(|(path, _)| path))
             .chain(self.dataset.iter_mut().flat_map(SessionDataset::paths_mut))
     }

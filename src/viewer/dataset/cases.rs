@@ -51,7 +51,7 @@ pub fn ask(Shown { model, jobs }: Shown<'_>) -> Option<Arc<Answered<ReadCase>>> 
         pinned: pinned.clone(),
         open: open.clone(),
         version: dataset.version(case),
-        rules: model.materials.rules,
+        rules: Rules { mask: None, ..model.materials.rules.clone() },
         given: Given((jobs.gpu.clone(), known.clone())),
     };
     let read = jobs.answers.get(&question(dataset.wanted)).ready()?;
@@ -172,10 +172,12 @@ impl AskCase {
     ) -> Column {
         let source = self.open.source(case, column)?;
         let Given((gpu, known)) = &self.given;
-        if let Some(known) = known.iter().find(|one| one.source == source && one.is_of_now()) {
+        if let Some(known) =
+            known.iter().find(|one| one.source == source && one.is_of_now() && one.record.mask.is_none())
+        {
             return Ok(known.clone());
         }
-        let mut reading = Reading { rules: self.rules, size, retries: false };
+        let mut reading = Reading { rules: self.rules.clone(), size, ..Reading::default() };
         let read = reading::read(&mut reading, &source, gpu.as_ref(), &progress.part());
         read.map(Arc::new).map_err(|error| error.to_string())
     }

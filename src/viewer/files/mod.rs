@@ -48,6 +48,12 @@ pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model) {
     if let Some(open) = &shown.model.dataset.open {
         decisions(ui, open, materials, &mut next.dataset);
     }
+    let mask = materials.first().and_then(|truth| truth.read.record.mask.as_ref());
+    if let Some((mask, source)) = mask.zip(shown.model.materials.rules.mask.as_ref()) {
+        let (kept, all) = (mask.texels().len(), mask.kept().len());
+        ui.label(format!("Mask: {}, {kept} of {all} texels", drawable(&source.to_string())))
+            .on_hover_text("The others are gray, and not compared");
+    }
     let pairs = ComparedPair::all(materials, &shown.model.view);
     for (index, material) in materials.iter().enumerate() {
         ui.separator();

@@ -21,7 +21,7 @@ use svbrdf_files::scene_file;
 
 use crate::dataset::matrix;
 use crate::error::Error;
-use crate::jobs::answers::content::ComparedPair;
+use crate::jobs::answers::content::{ComparedPair, refuse_mask};
 use crate::model::inspection::Region;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::ReadMaterial;
@@ -105,8 +105,9 @@ pub fn strip(displayed: &Displayed<'_>) -> Writing {
     let session = displayed.model.session();
     Box::new(move |path, progress| {
         let destination = Destination::of_figure(path)?;
+        let mask = all.first().and_then(|truth| truth.record.mask.clone());
         let all: Vec<&Material<f32>> = all.iter().map(|loaded| loaded.material()).collect();
-        let figure = strip.figure(&all, &names, None, progress)?;
+        let figure = strip.figure(&all, &names, mask.as_ref(), progress)?;
         Ok(destination.write_figure(&figure, &strip.entries(&names, session.entry(path)?), progress)?)
     })
 }
@@ -131,6 +132,10 @@ pub fn scenes(displayed: &Displayed<'_>) -> Writing {
     let request = displayed.model.settings.loss.listed_scenes();
     Box::new(move |path, progress| {
         let [truth, prediction] = read.ok_or(EvaluateError::NoPrediction)??;
+        refuse_mask(
+            std::slice::from_ref(&truth),
+            "the list of scenes is over all texels, and not over those of a mask",
+        )?;
         let destination = scene_file::destination(path)?;
         let (predictions, truth) = ([prediction.material()], truth.material());
         let comparison = Comparison::new(truth, &predictions, convention)?.without_pilot();

@@ -41,12 +41,18 @@ impl Question for ReadMaterials {
     const KEPT: usize = 0;
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Vec<Arrival>, Error> {
-        let (mut reading, gpu) = (self.opening.reading, self.gpu.0.as_ref());
+        let (mut reading, gpu) = (self.opening.reading.clone(), self.gpu.0.as_ref());
         let mut all = Vec::new();
         work.progress().begin(self.opening.items.len() as u64);
         for item in self.opening.items.iter() {
             all.push(match item {
-                Item::Loaded(loaded) => Arrival::Loaded(loaded.clone()),
+                Item::Loaded(loaded) => {
+                    if reading.size.is_none() {
+                        reading.size = Some(loaded.material().size());
+                        reading.mask.clone_from(&loaded.read.record.mask);
+                    }
+                    Arrival::Loaded(loaded.clone())
+                }
                 Item::Read(source) => match read(&mut reading, source, gpu, &work.progress().part()) {
                     Ok(read) => Arrival::Read(Arc::new(read)),
                     Err(error) => Arrival::Failed(source.clone(), Arc::new(error)),
@@ -91,6 +97,10 @@ fn by_rules(
 ) -> Result<(MaterialSource, Read<f32>), Error> {
     let mut source = source.clone();
     let from = read.material.size();
+    if reading.size.is_none() {
+        let mask = reading.rules.mask.as_ref().map(|mask| mask.of(read.material.name(), &read));
+        reading.mask = mask.transpose()?;
+    }
     let size = *reading.size.get_or_insert(from);
     if let Place::Path(path) = &source.place {
         if reading.rules.strict {
@@ -101,6 +111,11 @@ fn by_rules(
             read.material = read.material.resized(size)?;
             read.notes.push(Note::Resized { from, to: size });
         }
+    }
+    // One of another size is refused when it arrives.
+    read.mask = reading.mask.clone().filter(|mask| mask.size() == read.material.size());
+    if let Some(mask) = &read.mask {
+        read.material = read.material.gray_outside(mask);
     }
     Ok((source, read))
 }

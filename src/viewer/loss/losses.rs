@@ -9,12 +9,12 @@ use svbrdf_core::loss::{Comparison, Estimate, Loss, Outcome, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_evaluate::analyses::LossReport;
-use svbrdf_evaluate::report::{Reader, Report as _, stored_normals_note};
+use svbrdf_evaluate::report::{Reader, Report as _, comparing, stored_normals_note};
 use svbrdf_evaluate::robust::RobustReport;
 
 use crate::error::Error;
 use crate::jobs::Shown;
-use crate::jobs::answers::content::{Content, Given, read_all};
+use crate::jobs::answers::content::{Content, Given, mask_of, read_all, refuse_mask};
 use crate::jobs::answers::{Answer, Answered, Question, Work};
 use crate::model::Model;
 use crate::model::material::loaded::{LoadedMaterial, drawable};
@@ -72,18 +72,21 @@ impl Question for ComputeLosses {
         let materials: Vec<Material<f32>> =
             named.map(|(name, read)| read.material().clone().renamed(name.clone())).collect();
         let materials: Vec<&Material<f32>> = materials.iter().collect();
-        let comparison = Comparison::new(materials[0], &materials[1..], self.convention)?;
-        let report = |outcome: Outcome| {
-            let mut report = LossReport::new(&comparison, &self.request, outcome);
-            report.note.clone_from(&note);
-            ComputedLosses { request: self.request.clone(), differences: differences(&report), report }
-        };
-        let mut last = None;
-        comparison.stream(&self.request, work.progress(), |outcome: &Outcome| {
-            work.tell(report(outcome.clone()));
-            last = Some(outcome.clone());
-        })?;
-        last.map(report).ok_or_else(|| Error::internal("there are no losses"))
+        let (size, mask) = (materials[0].size(), mask_of(&read)?);
+        comparing(materials[0], &materials[1..], self.convention, mask, |comparison| {
+            let report = |outcome: Outcome| {
+                let mut report = LossReport::new(&comparison, &self.request, outcome);
+                report.note.clone_from(&note);
+                (report.size, report.masked) = (size, mask.map(|mask| mask.texels().len()));
+                ComputedLosses { request: self.request.clone(), differences: differences(&report), report }
+            };
+            let mut last = None;
+            comparison.stream(&self.request, work.progress(), |outcome: &Outcome| {
+                work.tell(report(outcome.clone()));
+                last = Some(outcome.clone());
+            })?;
+            last.map(report).ok_or_else(|| Error::internal("there are no losses"))
+        })
     }
 }
 
@@ -214,8 +217,14 @@ impl Question for PredictionOrder {
     const HAS_MESSAGE: bool = false;
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<RobustReport, Error> {
-        let named =
-            |(one, name): &(Content, String)| Ok(one.read()?.material().clone().renamed(name.clone()));
+        let named = |(one, name): &(Content, String)| {
+            let read = one.read()?;
+            refuse_mask(
+                std::slice::from_ref(&read),
+                "The order is over all texels, and not over those of a mask",
+            )?;
+            Ok(read.material().clone().renamed(name.clone()))
+        };
         let materials = self.materials.iter().map(named).collect::<Result<Vec<_>, Error>>()?;
         let [ground_truth, predictions @ ..] = materials.as_slice() else {
             return Err(Error::internal("there is no ground truth"));

@@ -25,6 +25,7 @@ pub fn open(model: &mut Model, mut paths: Vec<PathBuf>, replace: bool, read: Rea
     let is_scenes = |path: &PathBuf| scene_file::is_named(path);
     if replace && !paths.iter().all(|path| is_scenes(path) || convention::is_file(path)) {
         model.close_dataset();
+        model.materials.rules.mask = None;
     }
     let read = if replace || read != ReadOptions::AUTO { read } else { model.materials.read_of_added() };
     // First: the scenes or the convention of a file replace those of a session.
@@ -105,6 +106,9 @@ pub fn reopen(model: &mut Model, index: usize) {
 pub fn make_ground_truth(model: &mut Model, index: usize) {
     if model.dataset.open.is_none() {
         model.materials.make_ground_truth(index);
+        if model.materials.rules.mask.is_some() {
+            model.read(Opening::of_sources(model.materials.sources(), Target::Everything));
+        }
     }
 }
 
@@ -134,6 +138,7 @@ pub fn choose_photograph(model: &mut Model, index: usize) {
 /// Opens the built-in materials in the place of all others.
 pub fn open_built_in(model: &mut Model) {
     model.close_dataset();
+    model.materials.rules.mask = None;
     model.read(Opening::built_in());
 }
 
@@ -186,7 +191,7 @@ fn many(model: &Model, paths: &[PathBuf], replace: bool, read: ReadOptions) -> O
     let new = paths.iter().map(|path| MaterialSource::path(path.clone(), read));
     let all: Vec<_> = present.chain(new).collect();
     let is_possible = model.dataset.open.is_none() && model.photograph.source().is_none();
-    OpenDataset::of_many(&all, model.materials.rules).filter(|_| is_possible)
+    OpenDataset::of_many(&all, &model.materials.rules).filter(|_| is_possible)
 }
 
 /// Whether these are folders of materials of the same names, and the first is no material itself.

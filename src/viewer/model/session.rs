@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use svbrdf_core::loss::FileScenes;
+use svbrdf_evaluate::protocols::MaskSource;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::read::ReadOptions;
@@ -39,6 +40,8 @@ pub struct ViewerOptions {
     pub strict: bool,
     /// Whether predictions of another size are resized to the ground truth.
     pub fit: bool,
+    /// Which texels are compared, where not all are.
+    pub mask: Option<MaskSource>,
     /// A photograph that renderings are compared with, or what lists several.
     pub photograph: Option<PathBuf>,
     /// The convention of renderings and loss; `None` for that of the session or the default.
@@ -53,13 +56,14 @@ const RECENT: usize = 12;
 impl Model {
     /// Takes in what the window starts with.
     pub fn start(&mut self, options: ViewerOptions) {
-        self.materials.rules = Rules { strict: options.strict, fit: options.fit };
+        let mask = options.mask.clone();
+        self.materials.rules = Rules { strict: options.strict, fit: options.fit, mask };
         let all = options.ground_truth.map(|ground_truth| {
             std::iter::once(ground_truth).chain(options.predictions).collect::<Vec<MaterialSource>>()
         });
         let of_many = || {
             let all = all.as_ref().filter(|_| options.photograph.is_none())?;
-            OpenDataset::of_many(all, self.materials.rules)
+            OpenDataset::of_many(all, &self.materials.rules)
         };
         let dataset = options.dataset.map(|open| *open).or_else(of_many);
         match (&options.session, all) {
@@ -84,6 +88,7 @@ impl Model {
     /// Takes a data set as what is open. What could be undone belongs to the last materials.
     pub fn open_dataset(&mut self, dataset: DatasetState) {
         self.dataset = dataset;
+        self.materials.rules.mask = None;
         self.history = History::default();
     }
 
@@ -115,6 +120,10 @@ impl Model {
         let inspection =
             Some(SessionInspection::from(&self.inspection)).filter(|one| *one != Default::default());
         session.dataset = self.dataset.session();
+        session.mask = self.materials.rules.mask.as_ref().map(|mask| match mask {
+            MaskSource::File(path) => absolute(path),
+            alpha => alpha.to_string().into(),
+        });
         session.window = SessionWindow { display, loss, inspection };
         session
     }
@@ -143,6 +152,12 @@ impl Model {
         let out_of_range = bring_into_range(self).map(Message::Warning);
         self.report(out_of_range);
         self.photograph.set(session.photograph.clone());
+        let mask = session.mask.as_deref().map(MaskSource::of_session);
+        if self.materials.rules.mask != mask {
+            // All have to be read again.
+            self.materials.all.clear();
+            self.materials.rules.mask = mask;
+        }
         self.effects.push(Effect::CheckFiles(Box::new(session.clone())));
         self.read(self.materials.restore(&session.materials));
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::image::{Image, mean_of_channels};
 use svbrdf_core::loss::{Comparison, Request};
-use svbrdf_core::material::Material;
+use svbrdf_core::material::{Mask, Material};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::{Difference, DifferenceParams};
@@ -17,7 +17,7 @@ use svbrdf_gpu::{Gpu, Shaded};
 
 use crate::error::Error;
 use crate::jobs::Shown;
-use crate::jobs::answers::content::{Content, Given, read_all};
+use crate::jobs::answers::content::{Content, Given, mask_of, read_all};
 use crate::jobs::answers::{Answered, Pace, Question, Work};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::ReadMaterial;
@@ -35,10 +35,19 @@ pub struct ComputedDifference {
 impl ComputedDifference {
     /// # Errors
     /// [`CoreError::Gpu`].
-    fn of_images(images: Vec<Image<f32>>, gpu: Option<&Gpu>) -> Result<Self, CoreError> {
-        let means = |image: &Image<f32>| image.pixels.iter().map(mean_of_channels).collect();
+    fn of_images(
+        mut images: Vec<Image<f32>>,
+        mask: Option<&Mask>,
+        gpu: Option<&Gpu>,
+    ) -> Result<Self, CoreError> {
+        let means = |image: &Image<f32>| kept(image.pixels.iter().map(mean_of_channels), mask);
         let values: Vec<Vec<f32>> = images.iter().map(means).collect();
         let distributions = Distributions::of(&values, false);
+        // Gray in a pane.
+        for image in &mut images {
+            let texels = image.pixels.iter_mut().zip(mask.map_or(&[][..], Mask::kept));
+            texels.filter(|(_, kept)| !**kept).for_each(|(texel, _)| *texel = [f32::NAN; 3]);
+        }
         Ok(Self { distributions, shaded: uploaded(&images, gpu)?, images })
     }
 
@@ -51,6 +60,14 @@ impl ComputedDifference {
     pub fn at(&self, index: usize, [column, row]: [usize; 2]) -> f64 {
         let image = index.checked_sub(1).and_then(|index| self.images.get(index));
         image.map_or(f64::NAN, |image| f64::from(mean_of_channels(&image.pixels[row * image.width + column])))
+    }
+}
+
+/// The values of the texels that are compared.
+fn kept(values: impl Iterator<Item = f32>, mask: Option<&Mask>) -> Vec<f32> {
+    match mask {
+        Some(mask) => values.zip(mask.kept()).filter(|(_, kept)| **kept).map(|(value, _)| value).collect(),
+        None => values.collect(),
     }
 }
 
@@ -131,10 +148,12 @@ impl Question for ComputeDifferences {
             let map =
                 |prediction: Result<_, CoreError>| Ok(kind.picture(&ground_truth, &prediction?, params));
             let maps = predictions.map(map).collect::<Result<Vec<_>, CoreError>>()?;
-            return Ok(ComputedDifference::of_images(maps, gpu.as_ref())?);
+            return Ok(ComputedDifference::of_images(maps, mask_of(&materials)?, gpu.as_ref())?);
         }
-        let values =
-            |prediction: Result<_, CoreError>| Ok(kind.of_images(&ground_truth, &prediction?, params));
+        let mask = mask_of(&materials)?;
+        let values = |prediction: Result<_, CoreError>| {
+            Ok(kept(kind.of_images(&ground_truth, &prediction?, params).into_iter(), mask))
+        };
         let values = predictions.map(values).collect::<Result<Vec<_>, CoreError>>()?;
         let distributions = Distributions::of(&values, kind.is_signed());
         Ok(ComputedDifference { distributions, images: Vec::new(), shaded: Vec::new() })
@@ -167,11 +186,11 @@ impl Question for ErrorMaps {
     const KEPT: usize = 1;
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<ComputedDifference, Error> {
-        let materials = read_all(&self.materials)?;
-        let materials: Vec<&Material<f32>> = materials.iter().map(|loaded| loaded.material()).collect();
+        let read = read_all(&self.materials)?;
+        let materials: Vec<&Material<f32>> = read.iter().map(|loaded| loaded.material()).collect();
         let comparison = Comparison::new(materials[0], &materials[1..], self.convention)?;
         let scenes = self.scenes.scenes(&self.convention)?.unwrap_or_default();
         let images = error_maps(&comparison, &scenes, work.progress())?;
-        Ok(ComputedDifference::of_images(images, self.gpu.0.as_ref())?)
+        Ok(ComputedDifference::of_images(images, mask_of(&read)?, self.gpu.0.as_ref())?)
     }
 }

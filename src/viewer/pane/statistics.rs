@@ -48,6 +48,7 @@ impl LegendStrip<'_> {
                 ("this scene".to_owned(), "Mean over the texels: the loss in this scene")
             }
             None if is_rendering => ("this scene".to_owned(), "Mean over the texels"),
+            None if self.is_masked() => ("in the mask".to_owned(), "Mean over the texels of the mask"),
             None => ("all texels".to_owned(), "Mean over the texels"),
         };
         let heads =
@@ -86,6 +87,10 @@ impl LegendStrip<'_> {
             0 => self.materials.iter().map(|one| one.slot + 1).max().unwrap_or(1),
             slot => slot,
         }
+    }
+
+    fn is_masked(&self) -> bool {
+        self.materials.iter().any(|one| one.read.record.mask.is_some())
     }
 
     fn row(

@@ -18,7 +18,7 @@ use svbrdf_gpu::{Gpu, Shaded};
 
 use crate::error::Error;
 use crate::jobs::Shown;
-use crate::jobs::answers::content::{Content, Given, read_all};
+use crate::jobs::answers::content::{Content, Given, read_all, refuse_mask};
 use crate::jobs::answers::{Answer, Answered, Pace, Question, Work};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::{ReadMaterial, file_name};
@@ -109,6 +109,7 @@ impl Photographs {
             Ok(compare(&photographs, material, material.name(), convention, progress)?.remove(0))
         };
         let materials = read_all(&asked.materials)?;
+        refuse_mask(&materials, "A photograph is compared over all texels, and not over those of a mask")?;
         let comparisons = materials.iter().map(one).collect::<Result<Vec<_>, _>>()?;
         let values: Vec<_> = comparisons.iter().map(|compared| compared.differences(*kind)).collect();
         let distributions = Distributions::of(&values, kind.is_signed());

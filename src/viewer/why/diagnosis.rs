@@ -13,7 +13,7 @@ use svbrdf_files::source::Place;
 
 use crate::error::Error;
 use crate::jobs::Shown;
-use crate::jobs::answers::content::{ComparedPair, Content};
+use crate::jobs::answers::content::{ComparedPair, Content, refuse_mask};
 use crate::jobs::answers::{Answer, Answered, Answers, Question, Work};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::settings::WhySection;
@@ -139,6 +139,7 @@ impl Question for Floor {
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Estimate, Error> {
         let read = self.ground_truth.read()?;
+        refuse_mask(std::slice::from_ref(&read), "A diagnosis is of all texels, and not of those of a mask")?;
         Ok(floor(read.material(), &read.storage, &self.convention, self.seed, work.progress())?)
     }
 }
@@ -162,7 +163,8 @@ impl Question for Diagnose {
     type Answer = Diagnosis;
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Diagnosis, Error> {
-        let [truth, prediction] = self.pair.read()?;
+        let [truth, prediction] = &self.pair.read()?;
+        refuse_mask(std::slice::from_ref(truth), "A diagnosis is of all texels, and not of those of a mask")?;
         let materials = [truth.material(), prediction.material()];
         let storages = [&truth.storage, &prediction.storage];
         let (convention, progress) = (&self.pair.convention, work.progress());

@@ -7,11 +7,12 @@ use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, Stroke, pos2, ve
 use svbrdf_core::loss::Request;
 use svbrdf_core::material::Map;
 use svbrdf_core::model::scene::Kind;
-use svbrdf_evaluate::why::{Attribution, MapShare, attribute};
+use svbrdf_evaluate::report::comparing;
+use svbrdf_evaluate::why::{Attribution, MapShare, attribute_in};
 
 use crate::error::Error;
 use crate::jobs::Shown;
-use crate::jobs::answers::content::ComparedPair;
+use crate::jobs::answers::content::{ComparedPair, mask_of};
 use crate::jobs::answers::{Answer, Answered, Question, Work};
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
@@ -235,14 +236,11 @@ impl Question for Attribute {
     type Answer = Attribution;
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Attribution, Error> {
-        let [truth, prediction] = self.pair.read()?;
+        let read = self.pair.read()?;
         let request = Request::Accuracy { target: ATTRIBUTION_TARGET, seed: self.seed };
-        Ok(attribute(
-            truth.material(),
-            prediction.material(),
-            &self.pair.convention,
-            &request,
-            work.progress(),
-        )?)
+        let (truth, prediction) = (read[0].material(), read[1].material());
+        comparing(truth, &[prediction], self.pair.convention, mask_of(&read)?, |comparison| {
+            Ok(attribute_in(&comparison, comparison.predictions()[0], &request, work.progress())?)
+        })
     }
 }

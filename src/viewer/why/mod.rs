@@ -11,15 +11,15 @@ use eframe::egui::{self, Rect, RichText, Sense, Sides, vec2};
 
 use serde_json::json;
 
-use svbrdf_core::loss::{Comparison, LossOptions, Request};
+use svbrdf_core::loss::{LossOptions, Request};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_evaluate::analyses::{ANALYSES, AnyAnalysis};
-use svbrdf_evaluate::report::{AnalysisInput, Reader, Table};
+use svbrdf_evaluate::report::{AnalysisInput, Reader, Table, comparing};
 
 use crate::error::Error;
 use crate::jobs::Shown;
-use crate::jobs::answers::content::{ComparedPair, Content, read_all};
+use crate::jobs::answers::content::{ComparedPair, Content, mask_of, read_all, refuse_mask};
 use crate::jobs::answers::{Pace, Question, Work};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::settings::WhySection;
@@ -171,9 +171,10 @@ impl Question for SceneLosses {
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Vec<f64>, Error> {
         let read = read_all(&self.materials)?;
         let all: Vec<_> = read.iter().map(|one| one.material()).collect();
-        let comparison = Comparison::new(all[0], &all[1..], self.convention)?;
-        let outcome = comparison.run(&Request::Listed(vec![self.scene]), work.progress())?;
-        Ok(outcome.losses.iter().map(|loss| loss.estimate.mean).collect())
+        comparing(all[0], &all[1..], self.convention, mask_of(&read)?, |comparison| {
+            let outcome = comparison.run(&Request::Listed(vec![self.scene]), work.progress())?;
+            Ok(outcome.losses.iter().map(|loss| loss.estimate.mean).collect())
+        })
     }
 }
 
@@ -200,7 +201,13 @@ impl Question for Analyse {
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<AnalysisTable, Error> {
         let analysis = AnyAnalysis::named(self.analysis)
             .ok_or_else(|| Error::internal(format!("there is no analysis {}", self.analysis)))?;
-        let [truth, prediction] = self.pair.read()?;
+        let [truth, prediction] = &self.pair.read()?;
+        if !analysis.paired {
+            refuse_mask(
+                std::slice::from_ref(truth),
+                "This is over all texels, and not over those of a mask",
+            )?;
+        }
         let seed = LossOptions { seed: self.scenes.seed(), ..LossOptions::default() };
         let request = match analysis.lists_scenes() {
             true => self.scenes.clone(),
@@ -214,7 +221,7 @@ impl Question for Analyse {
             convention: self.pair.convention,
             request,
             few_scenes: false,
-            mask: None,
+            mask: truth.record.mask.clone(),
         };
         let report = analysis.run(&input, json!({}), work.progress())?;
         Ok(AnalysisTable { heading: report.heading(), table: report.table(Reader::Person) })

@@ -2,13 +2,14 @@
 
 use eframe::egui::{self, Align2, Color32, FontId, Rect, RichText, Sense, Stroke, pos2, vec2};
 
-use svbrdf_core::loss::{Comparison, Request};
+use svbrdf_core::loss::Request;
 use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_evaluate::report::comparing;
 use svbrdf_evaluate::why::{RankedScene, TAIL, Worst, worst, worst_first};
 
 use crate::error::Error;
 use crate::jobs::Shown;
-use crate::jobs::answers::content::ComparedPair;
+use crate::jobs::answers::content::{ComparedPair, mask_of, refuse_mask};
 use crate::jobs::answers::{Question, Work};
 use crate::model::dialogs::{SaveDialog, SaveKind};
 use crate::model::material::loaded::LoadedMaterial;
@@ -218,11 +219,11 @@ impl Question for RankScenes {
     type Answer = Vec<RankedScene>;
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Vec<RankedScene>, Error> {
-        let [truth, prediction] = self.pair.read()?;
-        let predictions = [prediction.material()];
-        let comparison =
-            Comparison::new(truth.material(), &predictions, self.pair.convention)?.without_pilot();
-        Ok(worst_first(&comparison.run(&self.scenes, work.progress())?))
+        let read = self.pair.read()?;
+        let (truth, prediction) = (read[0].material(), read[1].material());
+        comparing(truth, &[prediction], self.pair.convention, mask_of(&read)?, |comparison| {
+            Ok(worst_first(&comparison.without_pilot().run(&self.scenes, work.progress())?))
+        })
     }
 }
 
@@ -256,8 +257,9 @@ impl Question for FindWorst {
     type Answer = Worst;
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Worst, Error> {
-        let [truth, prediction] = self.pair.read()?;
-        let materials = [truth.material(), prediction.material()];
+        let read = self.pair.read()?;
+        refuse_mask(&read, "The search is over all texels, and not over those of a mask")?;
+        let materials = [read[0].material(), read[1].material()];
         Ok(worst(materials[0], materials[1], &self.pair.convention, self.seed, TAIL, work.progress())?)
     }
 }

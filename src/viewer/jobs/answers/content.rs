@@ -3,6 +3,7 @@
 use std::sync::{Arc, Weak};
 
 use svbrdf_core::error::Error as CoreError;
+use svbrdf_core::material::Mask;
 use svbrdf_core::model::convention::Convention;
 
 use crate::error::Error;
@@ -48,6 +49,27 @@ impl Content {
 /// As [`Content::read`].
 pub fn read_all(materials: &[Content]) -> Result<Vec<Arc<ReadMaterial>>, Error> {
     materials.iter().map(Content::read).collect()
+}
+
+/// The mask over which these are compared.
+///
+/// # Errors
+/// [`Error::Masked`] where each has its own.
+pub fn mask_of(read: &[Arc<ReadMaterial>]) -> Result<Option<&Mask>, Error> {
+    let mask = read.first().and_then(|one| one.record.mask.as_ref());
+    let is_common = read.iter().all(|one| one.record.mask.as_ref() == mask);
+    is_common
+        .then_some(mask)
+        .ok_or(Error::Masked("one mask of all materials is needed: read them again (Ctrl+R)"))
+}
+
+/// Refuses materials with a mask where `what` is over all texels.
+///
+/// # Errors
+/// [`Error::Masked`].
+pub fn refuse_mask(read: &[Arc<ReadMaterial>], what: &'static str) -> Result<(), Error> {
+    let has_mask = read.iter().any(|one| one.record.mask.is_some());
+    if has_mask { Err(Error::Masked(what)) } else { Ok(()) }
 }
 
 /// A ground truth and a prediction, and the convention that they are compared by.

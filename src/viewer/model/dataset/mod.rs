@@ -54,12 +54,12 @@ impl OpenDataset {
 
     /// The predictions of one ground truth as a list of them, where they are too many to be seen at once and all are files that are
     /// read alike; `all` begins with the ground truth.
-    pub fn of_many(all: &[MaterialSource], rules: Rules) -> Option<Self> {
+    pub fn of_many(all: &[MaterialSource], rules: &Rules) -> Option<Self> {
         let [truth, predictions @ ..] = all else { return None };
         let first = predictions.first()?;
         let is_file = |one: &MaterialSource| matches!(one.place, Place::Path(_)) && !one.fit;
         let are_alike = all.iter().all(is_file) && predictions.iter().all(|one| one.options == first.options);
-        if predictions.len() <= MOST_PANES || !are_alike || rules.fit {
+        if predictions.len() <= MOST_PANES || !are_alike || rules.fit || rules.mask.is_some() {
             return None;
         }
         let named = predictions.iter().map(|one| (one.name.clone(), one.location().to_owned()));

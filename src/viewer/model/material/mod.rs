@@ -93,7 +93,10 @@ impl MaterialList {
         }
         // A file that is opened by hand and cannot be read is reported at once.
         let retries = retries && matches!(opening.target, Target::Again(_));
-        opening.reading = Reading { rules: self.rules, size: self.size_for(&opening.target), retries };
+        let truth = self.truth_for(&opening.target);
+        let (size, mask) =
+            (truth.map(|one| one.material().size()), truth.and_then(|one| one.read.record.mask.clone()));
+        opening.reading = Reading { rules: self.rules.clone(), size, mask, retries };
         self.openings.push(opening);
     }
 
@@ -107,14 +110,14 @@ impl MaterialList {
         self.openings.iter().any(|one| one.number == number && one.arrived == 0)
     }
 
-    /// The size of the ground truth that materials for `target` are compared with; `None` where they bring their own.
-    fn size_for(&self, target: &Target) -> Option<[usize; 2]> {
+    /// The ground truth that materials for `target` are compared with; `None` where they bring their own.
+    fn truth_for(&self, target: &Target) -> Option<&LoadedMaterial> {
         let stays = |ground_truth: &&LoadedMaterial| match target {
             Target::Everything => false,
             Target::Predictions => true,
             Target::Again(id) => *id != ground_truth.id(),
         };
-        self.ground_truth().filter(stays).map(|one| one.material().size())
+        self.ground_truth().filter(stays)
     }
 
     /// Puts these into the place of all others with their slots, the ground truth first; predictions have its size.
@@ -207,6 +210,12 @@ impl MaterialList {
     /// The opening that reads the material at `index` again, with changes of its source; `None` for a built-in one.
     fn again(&self, index: usize, change: impl FnOnce(&mut MaterialSource)) -> Option<Opening> {
         let material = self.all.get(index)?;
+        if index == 0 && self.rules.mask.is_some() {
+            // All have the mask of the ground truth.
+            let mut sources = self.sources();
+            change(&mut sources[0]);
+            return Some(Opening::of_sources(sources, Target::Everything));
+        }
         if matches!(material.read.source.place, Place::BuiltIn(_)) {
             return None;
         }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use svbrdf_core::material::Mask;
 use svbrdf_files::samples;
 use svbrdf_files::source::MaterialSource;
 
@@ -29,11 +30,13 @@ pub enum Item {
 }
 
 /// How materials are read one after the other.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
     pub rules: Rules,
     /// The size of the ground truth, once it is known.
     pub size: Option<[usize; 2]>,
+    /// Its mask, where it has one.
+    pub mask: Option<Mask>,
     /// Whether a file that cannot be read is tried again, where it was written a moment ago.
     pub retries: bool,
 }

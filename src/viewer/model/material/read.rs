@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use svbrdf_core::material::Material;
 use svbrdf_evaluate::diagnose::Storage;
+use svbrdf_evaluate::protocols::MaskSource;
 use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::read::Read;
 use svbrdf_files::source::{MaterialSource, Place};
@@ -30,7 +31,7 @@ pub struct ReadMaterial {
     pub id: MaterialId,
     /// Where it comes from, and how it was specified when it was opened.
     pub source: MaterialSource,
-    /// Its maps, and how they were read.
+    /// Its maps, and how they were read; its mask is the one by which it is compared, outside of which it is gray.
     pub record: Read<f32>,
     /// How its maps are stored, for its diagnosis.
     pub storage: Storage,
@@ -86,12 +87,14 @@ impl ReadMaterial {
 }
 
 /// Rules for every material that is opened.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rules {
     /// Whether a guess is an error.
     pub strict: bool,
     /// Whether a prediction of another size is resized to the ground truth.
     pub fit: bool,
+    /// Which texels are compared, where not all are.
+    pub mask: Option<MaskSource>,
 }
 
 /// The name that it is given, or the last part of its path.
