@@ -1,12 +1,14 @@
 //! Blind comparison: its keys, and its bar, which takes the place of all other parts of the window.
 
+use std::hash::{BuildHasher as _, RandomState};
+
 use eframe::egui::{self, Event, Key};
 
-use svbrdf_evaluate::blind::TRIALS;
+use svbrdf_evaluate::blind::{BlindTest, TRIALS};
 
 use crate::frame::actions::Run;
 use crate::model::Model;
-use crate::model::blind::{Blind, end};
+use crate::model::blind::Blind;
 
 /// What a key and a button do.
 const ANSWERS: [(&str, Key, Run); 2] = [
@@ -44,4 +46,21 @@ pub fn ui(ui: &mut egui::Ui, blind: &Blind, next: &mut Model) {
             }
         }
     });
+}
+
+/// Compares the chosen prediction with the material at index `other` blind.
+pub fn start(model: &mut Model, other: usize) {
+    let chosen = model.chosen_prediction().cloned();
+    let (Some(chosen), Some(other)) = (chosen, model.materials.all.get(other).cloned()) else { return };
+    let test = BlindTest::new(RandomState::new().hash_one(0));
+    model.dataset.show_table(false);
+    model.blind = Some(Blind::new([chosen, other], test));
+}
+
+/// Ends the test, which shows its result; where there is none, or it was shown, the window is as before.
+pub fn end(model: &mut Model) {
+    match &mut model.blind {
+        Some(blind) if blind.test.trial().is_some_and(|(trial, _)| trial > 1) => blind.test.end(),
+        _ => model.blind = None,
+    }
 }

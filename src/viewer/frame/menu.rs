@@ -7,9 +7,10 @@ use eframe::egui;
 use svbrdf_gpu::Gpu;
 
 use crate::error::Error;
+use crate::frame::blind;
 use crate::jobs::Shown;
 use crate::jobs::answers::{Pace, Question, Work};
-use crate::model::{Model, blind};
+use crate::model::Model;
 use crate::widgets::answered;
 
 /// The scales of text and controls that the menu offers, in percent.

@@ -1,10 +1,7 @@
 //! Blind comparison of two materials of the window.
 
-use std::hash::{BuildHasher as _, RandomState};
-
 use svbrdf_evaluate::blind::BlindTest;
 
-use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
 
 /// Two materials that are compared blind, and what was answered.
@@ -16,6 +13,11 @@ pub struct Blind {
 }
 
 impl Blind {
+    /// Compares these blind, in the order that the test gives them.
+    pub fn new([one, other]: [LoadedMaterial; 2], test: BlindTest) -> Self {
+        Self { pair: if test.is_swapped { [other, one] } else { [one, other] }, test }
+    }
+
     /// The materials of the panes: A, X and B, which have no other names until the test is over; then A and B with their names.
     pub fn materials(&self) -> Vec<LoadedMaterial> {
         let [a, b] = &self.pair;
@@ -29,23 +31,5 @@ impl Blind {
             Some((_, x_is_b)) => [(a, "A"), (if x_is_b { b } else { a }, "X"), (b, "B")].map(letter).into(),
             None => [("A", a), ("B", b)].map(|(is, one)| named(one, format!("{is}: {}", one.name()))).into(),
         }
-    }
-}
-
-/// Compares the chosen prediction with the material at index `other` blind.
-pub fn start(model: &mut Model, other: usize) {
-    let chosen = model.chosen_prediction().cloned();
-    let (Some(chosen), Some(other)) = (chosen, model.materials.all.get(other).cloned()) else { return };
-    let test = BlindTest::new(RandomState::new().hash_one(0));
-    let pair = if test.is_swapped { [other, chosen] } else { [chosen, other] };
-    model.dataset.show_table(false);
-    model.blind = Some(Blind { pair, test });
-}
-
-/// Ends the test, which shows its result; where there is none, or it was shown, the window is as before.
-pub fn end(model: &mut Model) {
-    match &mut model.blind {
-        Some(blind) if blind.test.trial().is_some_and(|(trial, _)| trial > 1) => blind.test.end(),
-        _ => model.blind = None,
     }
 }
