@@ -71,6 +71,7 @@ struct PhotoJob {
 impl PhotoArgs {
     pub fn job(self, given: &Specified) -> NewJob {
         let comparison = ComparisonJob::new(&self.comparison, given)?;
+        comparison.materials.refuse_mask("photographs are compared over all texels")?;
         let Self { photo: path, scene, transfer, falloff, output, format, .. } = self;
         let capture = if Capture::is_named(&path) {
             let reason = "the list of the photographs has their lights and views, and how they are read";

@@ -177,7 +177,7 @@ fn a_session_has_its_mask_in_every_command() {
     succeed(folder.path(), "render strip.png --show roughness -o roughness.exr");
     let rough = image_of_exr(&of("roughness.exr"));
     assert!(rough.pixels[4..8].iter().all(|rough| *rough == [1.0; 3]) && rough.pixels[0] != [1.0; 3]);
-    for command in ["blame", "worst", "diagnose", "rank --robust"] {
+    for command in ["blame", "worst", "diagnose", "rank --robust", "photo gt.png"] {
         let refused = fail(folder.path(), &format!("{command} strip.png"), 64);
         assert_has(&refused, &["over all texels, and not over those of a mask"]);
     }
