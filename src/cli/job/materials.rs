@@ -110,7 +110,8 @@ impl MaterialJob {
 
     /// Refuses the mask of a session where all texels are compared.
     pub fn refuse_mask(&self, reason: &str) -> Result<(), CommandError> {
-        let problem = || CommandError::Usage(format!("{reason}, and not over those of a mask"));
+        let way = "leave out --mask, or give the materials in place of the session";
+        let problem = || CommandError::Usage(format!("{reason}, and not over those of a mask; {way}"));
         self.mask.as_ref().map_or(Ok(()), |_| Err(problem()))
     }
 
