@@ -83,7 +83,7 @@ impl MaterialJob {
         refuse(resize_to.is_some() && !ways.is_empty(), "resize-to", "--register decides the size")?;
         let paths = args.paths().cloned().collect();
         let roughness = [None; 2];
-        let mask = session.and_then(|session| session.mask.as_deref()).map(MaskSource::of_session);
+        let mask = session.and_then(|session| session.mask.as_deref()).map(MaskSource::named);
         let is_comparison = false;
         Ok(Self { sources, paths, resize_to, ways, mask, is_comparison, roughness, strict, verbose })
     }

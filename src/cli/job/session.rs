@@ -26,7 +26,7 @@ pub struct SessionSettings {
     pub loss: Option<LossSettings>,
 }
 
-/// The session file, or the picture with a session, that stands for the ground truth and its predictions, read; `None` where the ground truth is none.
+/// The session, of a file or of a picture, that stands for the ground truth and its predictions; `None` where the ground truth is none.
 pub fn given(materials: &MaterialArgs) -> Result<Option<Session>, CommandError> {
     let paths: Vec<_> = materials.paths().collect();
     let Some(given) = materials.ground_truth.as_ref().filter(|_| Session::is_among(&paths)) else {

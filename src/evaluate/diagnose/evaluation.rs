@@ -11,7 +11,7 @@ use svbrdf_core::model::sampler::{REPLICATES, Sampler};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::statistics::order;
 
-/// The finding of each proposal in the scenes of `evaluation`, not yet marked, with its own p-value. `unchanged`: the losses without changes.
+/// The finding of each proposal in the scenes of `evaluation`, not marked, with its own p-value. `unchanged`: the losses without changes.
 pub(super) fn findings(
     evaluation: &Trials<'_>,
     proposals: &[Proposal],

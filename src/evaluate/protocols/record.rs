@@ -96,8 +96,8 @@ pub enum MaskSource {
 }
 
 impl MaskSource {
-    /// The mask that a session names.
-    pub fn of_session(path: &Path) -> Self {
+    /// The mask of this name or path, as sessions have it.
+    pub fn named(path: &Path) -> Self {
         match path.to_str() {
             Some("alpha") => Self::Alpha,
             Some("alpha-else-black") => Self::AlphaElseBlack,
@@ -154,15 +154,12 @@ impl FromStr for MaskSource {
     type Err = CoreError;
 
     fn from_str(text: &str) -> Result<Self, CoreError> {
-        match text {
-            "alpha" => Ok(Self::Alpha),
-            "alpha-else-black" => Ok(Self::AlphaElseBlack),
-            path if path.contains(['.', '/', '\\']) => Ok(Self::File(path.into())),
-            _ => Err(CoreError::unknown_name(
-                "mask",
-                text,
-                "alpha, or a picture such as mask.png or masks/{}.png",
-            )),
+        match Self::named(Path::new(text)) {
+            Self::File(_) if !text.contains(['.', '/', '\\']) => {
+                let known = "alpha, or a picture such as mask.png or masks/{}.png";
+                Err(CoreError::unknown_name("mask", text, known))
+            }
+            found => Ok(found),
         }
     }
 }

@@ -58,7 +58,7 @@ fn is_with_shift(event: &egui::Event, digit: Key) -> bool {
     modifiers.shift_only() && (*key == digit || *physical_key == Some(digit))
 }
 
-/// Carries out keys, those of a blind comparison alone where there is one, and opens files that were dropped on the window: in place of the built-in materials, otherwise as predictions.
+/// Carries out keys, of a blind comparison its own alone, and opens files that were dropped: in place of the built-in materials, or as predictions.
 pub fn act(ctx: &egui::Context, model: &mut Model, answers: &Answers) {
     if model.blind.is_some() {
         return blind::press(ctx, model);

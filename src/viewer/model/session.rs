@@ -152,7 +152,7 @@ impl Model {
         let out_of_range = bring_into_range(self).map(Message::Warning);
         self.report(out_of_range);
         self.photograph.set(session.photograph.clone());
-        let mask = session.mask.as_deref().map(MaskSource::of_session);
+        let mask = session.mask.as_deref().map(MaskSource::named);
         if self.materials.rules.mask != mask {
             // All have to be read again.
             self.materials.all.clear();
